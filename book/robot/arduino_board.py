@@ -26,7 +26,7 @@ from wmrrobot.sheets import Robot
 FOLDER = Path(__file__).parent / "arduino"
 LIBRARY = FOLDER / "WmrPark"
 CORE = Path("/usr/share/arduino/hardware/arduino/avr")
-NUMBERS = "my_robot_arduino.h"
+NUMBERS = "my_robot.h"
 CLOCK, BAUD = 16_000_000, 38_400
 _RESET, _SOUND = 0, (2, 3)  # of simavr's states: by the watchdog; running, sleeping
 # As in the core's platform.txt; Debian's avr-gcc is older than Arduino's and lacks DECIMAL_DIG.

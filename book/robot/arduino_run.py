@@ -111,8 +111,8 @@ class Lawn:
         self.error = keep * self.error + math.sqrt(1.0 - keep**2) * fresh
         x, y = self.past[max(0, len(self.past) - 1 - round(BEFORE / STEP))] + self.error
         at, sigma = wmr.point_at(self.origin, float(x), float(y)), self.robot.sigma
-        rtk = 2 if sigma < 0.05 else 1 if sigma < 0.5 else 0
-        return ubx(Position(round(now + 1.0, 3), at.lat, at.lon, sigma, rtk))
+        quality = round(self.robot.quality)
+        return ubx(Position(round(now + 1.0, 3), at.lat, at.lon, sigma, quality))
 
     def field(self) -> tuple[float, float]:
         """The compass's reading ahead and to the left, with hard iron and declination."""

@@ -71,7 +71,8 @@ class CDrive(wr.Drive):
         self._step, kinds, plan = _library(real, law)
         self._readings, self._memory = kinds[wr.Seen], kinds[monitor.Memory]()
         self._out = (REALS[real] * 2)()
-        rules = self.rules._asdict() | {"settle": int(self.rules.settle)}
+        whole = {name: int(getattr(self.rules, name)) for name in ("settle", "least")}
+        rules = self.rules._asdict() | whole
         parts = self.goal, self.gains, self.wheels, self.end, rules.values()
         self._plan = plan(*map(tuple, parts))
 

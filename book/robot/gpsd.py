@@ -20,13 +20,13 @@ import pyubx2
 
 
 class Position(NamedTuple):
-    """A fix as it is sent and read: s since noon, and degrees; RTK is 0 none, 1 float, 2 fixed."""
+    """A fix as it is sent and read: s since noon, degrees, m, and quality as NMEA counts."""
 
     time: float
     lat: float
     lon: float
-    error: float = 1.0  # m
-    rtk: int = 0
+    error: float = 1.0
+    quality: int = 1
 
 
 def ubx(fix: Position) -> bytes:
@@ -38,8 +38,8 @@ def ubx(fix: Position) -> bytes:
     valid = dict.fromkeys(("validDate", "validTime", "fullyResolved", "gnssFixOk"), 1)
     solution = {
         "fixType": 3,
-        "diffSoln": int(fix.rtk > 0),
-        "carrSoln": fix.rtk,
+        "diffSoln": int(fix.quality > 1),
+        "carrSoln": {5: 1, 4: 2}.get(fix.quality, 0),
         "numSV": 20,
         "pDOP": 1,
     }
@@ -59,10 +59,10 @@ def nmea(fix: Position) -> bytes:
     for value, width, signs in ((fix.lat, 2, "NS"), (fix.lon, 3, "EW")):
         degrees, minutes = divmod(round(abs(value) * 60e7), 60 * 10**7)
         place.append(f"{degrees:0{width}}{minutes / 1e7:010.7f},{signs[value < 0]}")
-    where, quality = ",".join(place), (1, 5, 4)[fix.rtk]
+    where = ",".join(place)
     bodies = (
         f"GPRMC,{clock},A,{where},,,010626,,,A",
-        f"GPGGA,{clock},{where},{quality},20,0.6,30.0,M,0.0,M,,",
+        f"GPGGA,{clock},{where},{fix.quality},20,0.6,30.0,M,0.0,M,,",
     )
     lines = (f"${body}*{reduce(xor, body.encode()):02X}\r\n" for body in bodies)
     return "".join(lines).encode()

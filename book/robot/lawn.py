@@ -45,11 +45,11 @@ FORM = tuple(FORMATS)
 
 
 class Receiver(NamedTuple):
-    """Standard deviation [m] and memory [s] of its error, its delay [s], RTK, and two antennas'."""
+    """Standard deviation [m] and memory [s] of its error, quality, delay [s], and two antennas'."""
 
     sigma: float
     memory: float
-    rtk: int = 0
+    quality: float  # as NMEA counts
     delay: float = 0.1
     heading: float = math.inf  # rad; infinite without a second antenna
 
@@ -63,13 +63,8 @@ class Design(NamedTuple):
     law: str = "corrected"
 
 
-RECEIVERS = {
-    "plain": Receiver(1.0, 100.0),
-    "SBAS": Receiver(0.6, 100.0),
-    "RTK float": Receiver(0.2, 60.0, rtk=1),
-    "RTK fixed": Receiver(0.015, 10.0, rtk=2),
-    "two antennas": Receiver(0.015, 10.0, rtk=2, heading=0.02),
-}
+RECEIVERS = {name: Receiver(**numbers) for name, numbers in wr.RECEIVERS.items()}
+RECEIVERS["two antennas"] = RECEIVERS["RTK fixed"]._replace(heading=0.02)
 DESIGNS = {
     "gentle": Design(wmr.GENTLE_GAINS, 0.2, False),
     "matched": Design(
@@ -116,7 +111,7 @@ class Robot:
         x, y = self.past[max(0, len(self.past) - 1 - round(self.kind.delay / PERIOD))] + self.error
         point = wmr.point_at(paper.GPS_POINT_1, float(x), float(y))
         time = round(self.now + 1.0, 2)
-        sent = Position(time, point.lat, point.lon, self.kind.sigma, self.kind.rtk)
+        sent = Position(time, point.lat, point.lon, self.kind.sigma, round(self.kind.quality))
         got = self.link.pass_on(sent) if self.link else rounded(sent, self.form)
         place = wmr.GeoPoint(lat=got.lat, lon=got.lon)
         east, north = wmr.local_position(paper.GPS_POINT_1, place)

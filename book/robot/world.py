@@ -34,6 +34,9 @@ class Faults(NamedTuple):
     delay: float = 0.05  # s, of them
     age_known: bool = True  # the fix's age is known
     jump: float = 0.0  # m, to the east
+    wander: float = 0.0  # m: how far off it gets in a minute, as an RTK float
+    antenna: float = 0.0  # m ahead of the axle
+    antenna_known: bool = True
     drift: tuple[float, float] = (0.0, 0.0)  # m/s, to the east and to the north
     swapped: bool = False  # latitude and longitude
     time: float = 1.0  # how fast the time of the fixes goes on
@@ -61,7 +64,7 @@ class World:
         self.pose, self.speeds = CASE.start, [0.0, 0.0]
         self.now, self.rolled, self.power = 0.0, 0.0, True
         self.past: list[tuple[float, wmr.Pose]] = []
-        self.clock_error, self.drifted = 0.0, np.zeros(2)
+        self.clock_error, self.drifted, self.wandered = 0.0, np.zeros(2), np.zeros(2)
         self.reported: wmr.Pose | None = None  # by the receiver, last
         self.time = self.due = 0.0  # of the fixes
         self.encoders = [0.0, 0.0]
@@ -120,8 +123,13 @@ class World:
         self.due = 0.0
         back = max(0, len(self.past) - 1 - round(faults.delay / PERIOD))
         pose = self.past[back][1] if self.past else self.pose
-        x, y = np.array(pose[:2]) + self.rng.normal(0.0, 0.02, 2) + self.drifted
-        x += faults.jump
+        x, y = np.array(pose[:2]) + self.rng.normal(0.0, 0.02, 2) + self.drifted + self.wandered
+        if faults.wander:
+            keep = math.exp(-faults.period / 60.0)
+            fresh = self.rng.normal(0.0, faults.wander * math.sqrt(1.0 - keep**2), 2)
+            self.wandered = keep * self.wandered + fresh
+        x += faults.jump + faults.antenna * math.cos(pose.heading)
+        y += faults.antenna * math.sin(pose.heading)
         if faults.swapped:
             x, y = swapped(x, y)
         load = max(map(abs, self.speeds)) / WHEELS.max_speed
@@ -140,6 +148,7 @@ class World:
             self.last_time = time
         return fields | {
             "fresh": 1,
+            "antenna_ahead": faults.antenna if faults.antenna_known else 0.0,
             "quality": faults.quality,
             "error": faults.error,
             "age": faults.delay if faults.age_known else 0.05,

@@ -17,6 +17,7 @@ from wmr_park.adapter import DEFAULTS, SOON, Sensors, typed, yaw
 
 import wmrlib as wmr
 import wmrrobot as wr
+from wmrrobot import monitor
 
 START = [33.273572, 44.373160]
 GOAL = wmr.Pose(3.0, 0.0, 0.0)
@@ -69,7 +70,10 @@ def test_a_fix_is_east_and_north_with_its_age_error_and_heading():
 
 def test_an_antenna_ahead_is_not_the_middle_of_the_wheels():
     seen = sensors(antenna=[1.0, 0.0]).seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL)
-    assert (seen.x, seen.y) == pytest.approx((3.0 - math.cos(2.0), 4.0 - math.sin(2.0)), abs=1e-6)
+    m = monitor.Memory()
+    monitor.bring_up(m, seen)
+    middle = 3.0 - math.cos(2.0), 4.0 - math.sin(2.0)
+    assert (m.fix.x, m.fix.y) == pytest.approx(middle, abs=1e-6)
 
 
 def test_a_heading_from_another_time_and_a_quaternion_that_is_none_are_no_numbers():

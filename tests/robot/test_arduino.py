@@ -12,8 +12,8 @@ from arduino_run import COUNT, FAULTS, NEAR, SETTINGS, STEP, Lawn, drive
 
 import wmrlib as wmr
 from wmrlib import symbolic
-from wmrrobot import printing
-from wmrrobot.sheets import sheet
+from wmrrobot import files, printing
+from wmrrobot.sheets import Robot, sheet
 
 uno = pytest.mark.needs("arduino", "avr", "compiler", "libsimavr")
 
@@ -26,7 +26,7 @@ def test_the_zip_is_a_library_with_what_is_printed(tmp_path):
     assert names["src/wmr_law.h"] == symbolic.c_header()
     assert names["src/wmr_drive.h"] == printing.c_drive()
     assert names["src/wmr_filter.h"] == printing.c_filter_header()
-    assert "const float DELAY = 0.1f" in names["examples/Park/my_robot_arduino.h"]
+    assert names["examples/Park/my_robot.h"] == files(Robot())["my_robot.h"]
     assert "name=WmrPark\n" in names["library.properties"]
 
 

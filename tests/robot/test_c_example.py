@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import avr
+import numpy as np
 import pytest
 from compiled import INCLUDES
 from test_c_header import build
@@ -70,7 +71,8 @@ static int read_fix(robot_fix *fix) {{
   return 1;
 }}
 static void read_encoders(int32_t *left, int32_t *right) {{
-  *left = (int32_t)(rolled[0] / COUNT_M), *right = (int32_t)(rolled[1] / COUNT_M);
+  *left = (int32_t)((uint32_t)(rolled[0] / COUNT_M) + {begin});
+  *right = (int32_t)((uint32_t)(rolled[1] / COUNT_M) + {begin});
 }}
 static void set_wheels(wmr_wheels wheels, WMR_REAL seconds) {{
   const WMR_REAL left = wheels.left * seconds, right = wheels.right * seconds;
@@ -83,6 +85,8 @@ static void set_wheels(wmr_wheels wheels, WMR_REAL seconds) {{
 STOPS = "drives", range(2, 29)  # after the patience of the rules
 WRONG = {  # what goes wrong in turn 20, and what is to happen in which turns
     "sound": ({}, "drives", range(2, 120)),
+    "counters that are not 0": ({"begin": "40000u"}, "drives", range(2, 120)),
+    "counters at their end": ({"begin": "0x7fffff00u"}, "drives", range(2, 120)),
     "silent": ({"receiver": "*fix = seen; return 0;"}, *STOPS),
     "no fix": ({"receiver": "seen.quality = 0;"}, *STOPS),
     "worse than a metre": ({"receiver": "seen.error = 2;"}, *STOPS),
@@ -103,10 +107,11 @@ def on_board(tmp_path):
     """What a loop prints on a board with what is wrong there."""
 
     def run(text, **wrong):
-        sound = {"battery": "24", "inside": "(x - x + y - y == 0)", "receiver": ""}
+        sound = {"battery": "24", "inside": "(x - x + y - y == 0)", "receiver": "", "begin": "0u"}
         (tmp_path / "board.h").write_text(BOARD.format(**sound | wrong))
         (tmp_path / "example.c").write_text(text)
         options = *INCLUDES, f"-I{tmp_path}", '-DHARDWARE="board.h"', "-Wno-unused"
+        options += "-fsanitize=undefined", "-fno-sanitize-recover"
         program = build(tmp_path / "example.c", tmp_path, *options)
         return subprocess.run([program], check=True, capture_output=True, text=True).stdout
 
@@ -123,7 +128,7 @@ def test_the_loop_sees_what_goes_wrong(on_board, name):
 
 @compiler
 def test_a_robot_that_the_loop_leaves_stands(on_board):
-    assert "cut 60" in on_board(SOURCE.replace("count < 4000", "count < 60")).splitlines()
+    assert "cut 60" in on_board(SOURCE.replace("count < MOST", "count < 60")).splitlines()
 
 
 @compiler
@@ -133,3 +138,14 @@ def test_the_command_puts_all_that_the_example_needs_into_a_folder(tmp_path):
     compile_line = re.search(r"cc .*example\.c -o example -lm", SOURCE)[0]
     subprocess.run(compile_line.split(), cwd=folder, check=True)
     assert subprocess.check_output([folder / "example"], text=True).startswith("too few good fixes")
+    robot = wr.Robot(antenna_ahead=0.3)
+    (folder / "my_robot.h").write_text(wr.files(robot)["my_robot.h"], encoding="utf-8")
+    subprocess.run([*compile_line.split(), "-DMY_ROBOT"], cwd=folder, check=True)
+    sure, ends = wr.certificate(robot), []
+    for seed in range(1, 31):
+        said = subprocess.check_output([folder / "example", str(seed)], text=True)
+        ends += re.findall(r"^parked: (.*) m and (.*) deg from the goal", said, re.MULTILINE)
+    places, headings = np.array(ends, dtype=float).T
+    assert len(places) == 30
+    assert np.mean(places < sure.place_bound) >= 0.9
+    assert np.mean(np.radians(headings) < sure.heading_bound) >= 0.9

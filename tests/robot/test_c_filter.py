@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from compiled import INCLUDES
 from driven import ARM, DT, FIRST, NOISE, drive
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
 from test_c_header import REALS, compiler, library
 
 from wmrrobot import estimation, printing
@@ -25,8 +27,9 @@ CALLS = """
 static wmr_filter filter;
 void start(const R *s) { wmr_pose p = {s[0], s[1], s[2]};
   filter = wmr_filter_start(p, s[3], s[4], s[5], s[6]); }
-int carry(const R *s) { wmr_noise n = {s[4], s[5], s[6], s[7], s[8]};
-  return wmr_filter_predict(&filter, s[0], s[1], s[2], s[3], n, s[9]); }
+int carry(const R *s) { wmr_noise n = {s[4], s[5], s[6], s[7], s[8], s[9]};
+  return wmr_filter_predict(&filter, s[0], s[1], s[2], s[3], n, s[10]); }
+int lost(const R *s) { return s[0] > 0 && wmr_filter_is_lost(&filter); }
 int position(const R *s) {
   return wmr_filter_position(&filter, s[0], s[1], s[2], s[3], s[4], s[5]); }
 int doubt(const R *s) { wmr_filter_doubt(&filter, s[0]); return 1; }
@@ -112,3 +115,49 @@ def test_c_changes_nothing_for_a_number_that_is_none(in_c):
     after = tell()
     assert (after.state == before.state).all()
     assert (after.covariance == before.covariance).all()
+
+
+@compiler
+def test_c_changes_nothing_for_a_speed_that_wheels_cannot_have(in_c):
+    """As Python, which raises: a counter that begins anew reads 2,000 m/s for a period."""
+    _, call, tell = in_c
+    call("start", 1.0, -2.0, 0.4, 0.5, 0.2, 0.02, 0.03)
+    noise, before = NOISE._replace(max_speed=2.0), tell()
+    for v, omega, dt in ((-2000.0, 0.0, 0.05), (3.1, 0.0, 0.1), (2.0, 5.0, 0.1), (0.0, 0.0, 61.0)):
+        assert not call("carry", v, omega, math.nan, dt, *noise, estimation.GATE_1)
+        with pytest.raises(ValueError, match="not allowed"):
+            estimation.predict(FIRST, v, omega, math.nan, dt, noise)
+    after = tell()
+    assert (after.state == before.state).all()
+    assert (after.covariance == before.covariance).all()
+    assert call("carry", 2.9, 0.0, math.nan, 0.1, *noise, estimation.GATE_1)
+
+
+wild = st.floats(-(2.0**100), 2.0**100, width=32) | st.floats(-3.0, 3.0, width=32)
+
+
+@compiler
+@settings(
+    max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@example([(99.0, 0.0, 0.0, 59.0, 0.0)] * 9)
+@given(st.lists(st.tuples(wild, wild, wild, st.floats(0.0, 2.0**100, width=32), wild), max_size=30))
+def test_after_whatever_it_was_told_c_finds_the_robot_again(in_c, nonsense):
+    """It doubts after five refusals in a row, and begins anew from a fix when it is lost."""
+    _, call, tell = in_c
+    call("start", 0.0, 0.0, 0.0, 0.5, 0.2, 0.02, 0.03)
+    for v, omega, gyro, dt, fix in nonsense:
+        call("carry", v, omega, gyro, dt, *NOISE, estimation.GATE_1)
+        call("position", fix, -fix, 0.02, 0.3, 0.0, estimation.GATE_2)
+        call("heading", fix, 0.1, estimation.GATE_1)
+    refused = 0
+    for _ in range(60):
+        call("carry", 0.0, 0.0, math.nan, 0.2, *NOISE, estimation.GATE_1)
+        call("heading", 0.7, 0.1, estimation.GATE_1)
+        used = call("position", 5.0, 6.0, 0.02, 0.0, 0.0, estimation.GATE_2)
+        refused = 0 if used else refused + 1
+        if refused >= 5:
+            call("doubt", 4.0)
+        if refused and call("lost", 1.0):
+            call("start", 5.0, 6.0, 0.7, 0.02, 0.1, 0.02, 0.03)
+    assert tell().state[:2] == pytest.approx((5.0, 6.0), abs=0.1)

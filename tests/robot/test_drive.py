@@ -46,7 +46,7 @@ def test_the_command_prints_the_table(monkeypatch, capsys):
     _, fault, held, unnoticed = capsys.readouterr().out.splitlines()
     assert fault.startswith(case.name)
     assert case.must in fault
-    assert held == "1 of 1 as they must"
+    assert held == "5 of 5 as they must"
     assert unnoticed.startswith(slight.name)
 
 

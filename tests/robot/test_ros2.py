@@ -19,6 +19,7 @@ from sensor_msgs.msg import Imu, NavSatFix  # noqa: E402
 from std_srvs.srv import Trigger  # noqa: E402
 
 import wmrlib as wmr  # noqa: E402
+import wmrrobot as wr  # noqa: E402
 
 # What reads rclpy's messages imports a module that Python has given up.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
@@ -167,6 +168,24 @@ def test_fix_odometry_and_goal_lead_to_a_drive_that_parks(begin):
     assert math.dist(robot.pose[:2], GOAL[:2]) < 0.06  # arrival_radius is 0.05
     assert abs(wmr.wrap_angle(robot.pose.heading - GOAL.heading)) < 0.07  # last_turn.tolerance
     assert {"wait", "drive", "turn", "parked"} <= {word.split(":")[0] for word in robot.words}
+
+
+def test_with_the_file_of_my_robot_it_makes_the_steps_that_the_sheet_makes(begin):
+    """The readings are those that the node has; its filter is off, for it is not in the sheet."""
+    robot, told, rolled = begin("watchdog:=60.0", "filter:=false"), wr.sheet(wr.Robot()), (0.0, 0.0)
+    drive = wr.Drive(GOAL, told.gains, told.wheels, told.turn, told.rules)
+    robot.ask(*GOAL)
+    robot.until(lambda: robot.words and robot.words[-1].startswith("goal: 4.00 m east"))
+    on, first = True, True
+    while on:
+        fix = {"fresh": 1, "error": 0.02, "later": PERIOD, **robot.pose._asdict()}
+        on = robot.period()
+        ours = drive.step(wr.Seen(0.0 if first else PERIOD, *rolled, **fix))
+        first = False
+        twist = wmr.wheels_to_twist(*ours, WIDTH)
+        assert robot.told[-1] == pytest.approx(twist, abs=1e-4)
+        rolled = tuple(PERIOD * speed for speed in wmr.twist_to_wheels(*robot.told[-1], WIDTH))
+    assert drive.state == "parked"
 
 
 def test_stop_halts_it_and_forgets_the_goal(begin):

@@ -3,18 +3,25 @@
 import math
 import re
 import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
+from compiled import INCLUDES
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from test_c_header import build
 
+sys.path.insert(0, str(Path(__file__).parents[2] / "book" / "robot" / "ros2" / "wmr_park"))
+
+from wmr_park.adapter import DEFAULTS, drive_of, goal_of, typed
+
 import wmrlib as wmr
 import wmrrobot as wr
 from wmrlib.body import roll
-from wmrrobot import sheets
+from wmrrobot import printing, sensing, sheets
 from wmrrobot.exports import along, at_rest, files
 from wmrrobot.sheets import RECEIVERS, Robot, certificate, sheet
 
@@ -68,13 +75,12 @@ def test_a_sheets_numbers_fit_the_robot():
         assert 5 * robot.period <= numbers.longest_step * (1 + 1e-9)
         assert 2 * (robot.period + robot.delay) <= numbers.longest_step * (1 + 1e-9)
         least = numbers.turn.min_rate * robot.track_width / 2  # m/s, of each wheel in the last turn
-        assert min(numbers.min_speed, least) >= 1.2 * robot.dead_band
+        assert min(numbers.wheels.min_speed, least) >= 1.2 * robot.dead_band
         fastest = gains.v_max**2 * gains.k_rho / 4  # m/s^2, braking on a straight line
         assert fastest <= robot.acceleration
         assert numbers.turn.max_rate * robot.track_width / 2 <= robot.max_speed
-        wheels = wmr.Wheels(robot.track_width, robot.max_speed, dead_band=robot.dead_band)
-        place = wmr.Pose(numbers.x, numbers.y, numbers.heading)
-        assert wr.Drive(place, gains, wheels, numbers.turn).end == numbers.turn  # it does not swing
+        drive = wr.Drive(place_of(numbers), gains, numbers.wheels, numbers.turn)
+        assert drive.end == numbers.turn  # it does not swing
         assert numbers.turn.min_rate * robot.period <= 2 * numbers.turn.tolerance
 
 
@@ -152,37 +158,119 @@ def test_a_track_gives_the_way_and_the_scatter(tmp_path):
     assert robot._replace(**{name: getattr(Robot(), name) for name in robot._fields[:4]}) == Robot()
 
 
-@pytest.mark.needs("compiler")
-def test_c_and_arduino_compile_and_steer_as_wmrlib_does(tmp_path):
-    robot = Robot()
-    for name, text in files(robot).items():
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    (tmp_path / "main.c").write_text(
-        """#include <stdio.h>
-#include "my_robot.h"
-#include "my_robot_arduino.h"
-int main(void) {
-  wmr_pose pose = {0, 0, 0}, goal = {0, 0, MY_GOAL_HEADING};
-  const wmr_gains gains = MY_GAINS;
-  wmr_local_position_e7(MY_START_E7, MY_GOAL_E7, &goal.x, &goal.y);
-  const wmr_twist twist = wmr_law(wmr_polar_error(pose, goal), gains);
-  printf("%.9f %.9f %.9f %.9f\\n", twist.v, twist.omega, wmr_turn_rate(0.01, MY_TURN),
-         (double)(MY_PATIENCE - PATIENCE + MY_OLDEST - OLDEST_FIX + MY_JUMP - JUMP +
-                  MY_FARTHEST - FARTHEST + MY_ACCELERATION - ACCELERATION));
+COUNT, LAG = 0.0005, 0.1  # m a count, as in example.c; s that a simulated wheel lags
+SCRIPT = """
+static double row[9];
+static void load(void) { for (int k = 0; k < 9; ++k) if (scanf("%lf", row + k) != 1) exit(0); }
+static uint32_t clock_ms(void) { if (row[0] == 0) load(); return (uint32_t)row[0]; }
+static void wait_for_timer(void) { load(); }
+static void feed_watchdog(void) {}
+static void cut_power(void) {}
+static WMR_REAL battery_volts(void) { return 24; }
+static int is_inside(WMR_REAL x, WMR_REAL y) { return x == x && y == y; }
+static int read_fix(robot_fix *fix) {
+  const wmr_pose pose = {row[4], row[5], row[6]};
+  fix->pose = pose, fix->time = (uint32_t)row[7], fix->age = (uint32_t)row[8];
+  fix->quality = 4, fix->error = MY_SIGMA;
+  return row[3] != 0;
 }
-""",
-        encoding="utf-8",
-    )
-    program = build(tmp_path / "main.c", tmp_path, "-Wno-double-promotion")
-    done = subprocess.run([program], capture_output=True, text=True, check=True)
-    numbers = sheet(robot)
-    error = wmr.polar_error(
-        wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(numbers.x, numbers.y, numbers.heading)
-    )
-    v, omega, rate, differ = map(float, done.stdout.split())
-    assert differ == pytest.approx(0.0, abs=1e-6)
-    assert (v, omega) == pytest.approx(wmr.control_law(*error, numbers.gains), rel=1e-4)
-    assert rate == numbers.turn.min_rate
+static void read_encoders(int32_t *left, int32_t *right) {
+  *left = (int32_t)row[1], *right = (int32_t)row[2];
+}
+static void set_wheels(wmr_wheels wheels, WMR_REAL seconds) {
+  printf("%.12f %.12f %d\\n", wheels.left, wheels.right, seconds > 0);
+}
+"""
+
+
+def driven(robot, seed, shaky):
+    """What example.c reads in each period of a drive by the sheet, and the wheels' speeds.
+
+    The compass errs anew in each fix, by `shaky` rad.
+    """
+    rng, numbers, ms = np.random.default_rng(seed), sheet(robot), round(1000 * robot.period)
+    drive = wr.Drive(place_of(numbers), numbers.gains, numbers.wheels, numbers.turn, numbers.rules)
+    truth, body = [wmr.Pose(0.0, 0.0, math.atan2(numbers.y, numbers.x) + 0.5)], (0.0,) * 4
+    every, late = round(robot.fix_period / robot.period), round(robot.delay / robot.period)
+    wheels, arm = numbers.wheels._replace(lag=LAG), (robot.antenna_ahead, robot.antenna_left)
+    counts, last, rolled, rows, speeds = [0, 0], 0, [0.0, 0.0], [], []
+    while drive.state not in ("parked", "stopped"):
+        k = len(rows)
+        now, before = 1000 + ms * k, counts
+        counts = [round(metres / COUNT) for metres in rolled]
+        left, right = (COUNT * (new - old) for new, old in zip(counts, before, strict=True))
+        seen, row = wr.Seen(0.001 * ms, left, right, 24.0), [now, *counts] + [0] * 6
+        if k % every == 0 and k >= late:
+            x, y, heading = truth[k - late]
+            error = rng.normal(0, robot.sigma, 2)
+            x, y = (np.array(sensing.antenna(x, y, heading, *arm)) + error).tolist()
+            heading = float(wmr.wrap_angle(heading + rng.normal(0, shaky)))
+            time, age = now - late * ms, late * ms
+            row[3:] = 1, x, y, heading, time, age
+            later, last = 0.001 * (time - last), time
+            seen = seen._replace(fresh=1, x=x, y=y, heading=heading, age=0.001 * age, later=later)
+            seen = seen._replace(antenna_ahead=arm[0], antenna_left=arm[1], error=robot.sigma)
+        rows.append(row)
+        speeds.append(drive.step(seen))
+        twist = wmr.wheels_to_twist(*speeds[-1], robot.track_width)
+        *twist, body = roll(*twist, body, wheels, robot.period)
+        moved = wmr.twist_to_wheels(*twist, robot.track_width)
+        rolled = [old + robot.period * speed for old, speed in zip(rolled, moved, strict=True)]
+        truth.append(wmr.advance(truth[-1], *twist, robot.period))
+    return rows, speeds, drive
+
+
+def place_of(numbers):
+    return wmr.Pose(numbers.x, numbers.y, numbers.heading)
+
+
+FILED = [
+    (Robot(goal_lat=33.2737), 4.0),
+    (Robot(goal_lat=33.2737, antenna_ahead=0.3, antenna_left=-0.1), 3.0),
+    (Robot(goal_lat=33.2737, delay=0.3, dead_band=0.0, max_speed=2.0, track_width=0.7), 2.0),
+    (Robot(goal_lat=33.2737, fix_period=0.5, period=0.1, sigma=0.2, memory=60.0), 4.0),
+]
+
+
+@pytest.mark.needs("compiler")
+@pytest.mark.parametrize(("robot", "shaky"), FILED)
+def test_the_c_file_makes_the_steps_that_the_sheet_makes(robot, shaky, tmp_path):
+    """It is compiled with example.c, and reads what a drive by the sheet has read."""
+    (tmp_path / "my_robot.h").write_text(files(robot)["my_robot.h"], encoding="utf-8")
+    (tmp_path / "board.h").write_text(f"#include <stdlib.h>\n{SCRIPT}", encoding="utf-8")
+    options = *INCLUDES, f"-I{tmp_path}", "-DMY_ROBOT", '-DHARDWARE="board.h"'
+    program = build(printing.C_EXAMPLE, tmp_path, *options)
+    rows, speeds, drive = driven(robot, 1, math.radians(shaky))
+    assert drive.state == "parked"
+    script = "\n".join(" ".join(map(repr, row)) for row in [*rows, rows[-1]])
+    printed = subprocess.run([program], input=script, capture_output=True, text=True, check=True)
+    steps = re.findall(r"^(\S+) (\S+) 1$", printed.stdout, re.MULTILINE)
+    assert np.array(steps, dtype=float) == pytest.approx(np.array(speeds), abs=1e-5)
+    assert printed.stdout.splitlines()[-1].startswith(
+        f"{len(rows)} "
+    )  # it parked with the last one
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.sampled_from([*robots(20)]), st.floats(-1.0, 1.0), st.floats(0.0, 40.0))
+def test_the_ros_file_is_the_drive_of_the_sheet(robot, ahead, compass):
+    robot = robot._replace(antenna_ahead=ahead, antenna_left=-ahead, compass=compass)
+    numbers, flat = sheet(robot), {}
+    parameters = yaml.safe_load(files(robot)["my_robot.yaml"])["/**"]["ros__parameters"]
+    for name, value in parameters.items():
+        many = value.items() if isinstance(value, dict) else ()
+        flat |= {f"{name}.{part}": number for part, number in many} or {name: value}
+    read = DEFAULTS | typed({name: value for name, value in flat.items() if name != "period"})
+    drive = drive_of(read, goal_of(read))
+    for parts in (
+        (drive.goal, place_of(numbers)),
+        (drive.gains, numbers.gains),
+        (drive.wheels, numbers.wheels),
+        (drive.end, numbers.turn),
+        (drive.rules, numbers.rules),
+        (read["antenna"], (ahead, -ahead)),
+    ):
+        assert tuple(parts[0]) == pytest.approx(tuple(parts[1]), rel=1e-5, abs=1e-6)
 
 
 @settings(max_examples=10, deadline=None)
@@ -208,8 +296,8 @@ def test_a_perfect_robot_parks_by_the_drive_that_the_sheet_describes(robot):
         numbers = sheet(robot)
     except ValueError:
         return
-    wheels = wmr.Wheels(robot.track_width, robot.max_speed, numbers.min_speed, robot.acceleration)
-    goal, dt = wmr.Pose(numbers.x, numbers.y, numbers.heading), robot.period
+    wheels = numbers.wheels._replace(dead_band=0.0)
+    goal, dt = place_of(numbers), robot.period
     drive = wr.Drive(goal, numbers.gains, wheels, numbers.turn, numbers.rules)
     pose, body, rolled = (
         wmr.Pose(0.0, 0.0, math.atan2(numbers.y, numbers.x)),

@@ -1,7 +1,7 @@
 """``python -m wmrrobot`` prints the C headers of the drive and the filter, and jacobians.py.
 
-``--c FOLDER`` puts all that a robot's C needs into a folder: wmr_law.h, wmr_drive.h, wmr_filter.h
-and example.c.
+``--c FOLDER`` puts all that a robot's C needs into a folder: wmr_law.h, wmr_drive.h, wmr_filter.h,
+example.c and plant.h.
 """
 
 import argparse
@@ -18,7 +18,9 @@ texts = {
     printing.C_FILTER_HEADER: printing.c_filter_header(),
 }
 if target:
-    texts |= {C_HEADER: c_header(), printing.C_EXAMPLE: printing.C_EXAMPLE.read_text("utf-8")}
+    texts[C_HEADER] = c_header()
+    for path in printing.C_EXAMPLE, printing.C_PLANT:
+        texts[path] = path.read_text("utf-8")
     folder = Path(target)
     folder.mkdir(parents=True, exist_ok=True)
     texts = {folder / path.name: text for path, text in texts.items()}

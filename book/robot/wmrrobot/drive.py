@@ -99,6 +99,7 @@ TABLE = (
     Row(_GOING, lambda m, s, r, e: m.astray != 0, "stopped", "heading disagrees with course"),
     Row(_GOING, lambda m, s, r, e: m.outran != 0, "stopped", "position outruns the wheels"),
     Row(_GOING, lambda m, s, r, e: m.driven > r.longest_drive, "stopped", "drive too long"),
+    Row("wait", lambda m, s, r, e: m.waited > r.longest_wait, "stopped", "waited too long"),
     Row(_GOING, lambda m, s, r, e: m.regular == 0, "wait", "clock jumped"),
     Row(_GOING, lambda m, s, r, e: silent_by(m, r, BROKEN), "wait", "fix is no number"),
     Row(_GOING, lambda m, s, r, e: silent_by(m, r, POOR), "wait", "fix of too low quality"),
@@ -172,8 +173,11 @@ class Drive:
             if self.end.min_rate <= least:
                 needed = f"more than {least:g}, the dead band's,"
                 raise refusal("last_turn.min_rate", self.end.min_rate, needed)
-        if self.rules.settle % 1:
-            raise refusal("rules.settle", self.rules.settle, "a whole number")
+        for name in "settle", "least":
+            if (count := getattr(self.rules, name)) % 1:
+                raise refusal(f"rules.{name}", count, "a whole number")
+        if not monitor.rank(self.rules.least):
+            raise refusal("rules.least", self.rules.least, "a quality from 1 to 5")
         self.reset()
 
     def reset(self) -> None:

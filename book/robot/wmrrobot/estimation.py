@@ -14,8 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib.checks import instance, scalar, scalars
+from wmrlib.checks import instance, refusal, scalar, scalars
 from wmrlib.kinematics import Pose
+from wmrlib.laws import fastest_wheel
 from wmrrobot import sensing
 from wmrrobot.kalman import carry, see_antenna, see_heading
 from wmrrobot.sensing import Noise
@@ -23,6 +24,8 @@ from wmrrobot.sensing import Noise
 GATE_1, GATE_2 = 10.83, 13.82
 """Chi-square bounds that 99.9 % of good measurements pass: of one number, of a position."""
 DOUBTED = 100.0  # m
+LONGEST = 60.0  # s, of a step
+OVER = 1.5  # times the wheels' top speed: a faster reading is an encoder's fault
 
 
 class Estimate(NamedTuple):
@@ -45,6 +48,12 @@ class Estimate(NamedTuple):
     def sigma(self) -> np.ndarray:
         """The standard deviation of each entry of the state."""
         return np.sqrt(np.diag(self.covariance))
+
+    @property
+    def lost(self) -> bool:
+        """Whether the place is uncertain by more than 100 m: start again from the next fix."""
+        area = self.covariance[0, 0] + self.covariance[1, 1]
+        return not (np.isfinite(self.state).all() and 0.0 <= area <= DOUBTED**2)
 
 
 def start(
@@ -102,8 +111,13 @@ def predict(
     ----------
     v, omega : float; m/s, rad/s. Twist of the wheels.
     gyro : float, rad/s, counter-clockwise; NaN if there is none.
-    dt : float, s. Above 0.
+    dt : float, s. Above 0, and at most 60.
     noise : Noise, of numbers
+
+    Raises
+    ------
+    ValueError : for a twist with which a wheel would turn half as fast again as `noise.max_speed`:
+        a counter of an encoder has begun anew. Leave out that step.
 
     Examples
     --------
@@ -114,9 +128,13 @@ def predict(
     >>> print(f"gyro bias {rested.state[3]:.3f} rad/s")
     gyro bias 0.010 rad/s
     """
-    v, omega, dt = scalars(("dt",), v=v, omega=omega, dt=dt)
+    v, omega = scalars(v=v, omega=omega)
+    dt = scalar("dt", dt, above=0.0, high=LONGEST)
     gyro = scalar("gyro", gyro, nan=True)
     numbers = scalars(**instance("noise", noise, Noise)._asdict())
+    if (fastest := fastest_wheel(v, omega, noise.track_width)) > OVER * noise.max_speed:
+        most = f"wheels of at most {OVER * noise.max_speed:g} m/s, not {fastest:g},"
+        raise refusal("v, omega", (v, omega), most)
     return _used(estimate, gate, carry, v, omega, gyro, dt, tuple(numbers))
 
 
@@ -210,7 +228,7 @@ def doubt(estimate: Estimate, factor: float) -> Estimate:
     A gate that has refused several measurements in a row may be refusing the truth, for a robot
     that was carried, or a first heading that was wrong. Multiply by 4, say, with each one that it
     refuses from then on, until one is used. A place that is uncertain by more than 100 m is not
-    doubted further: what is refused then has no number, or another fault.
+    doubted further: it is `lost`.
 
     Parameters
     ----------
@@ -226,8 +244,7 @@ def doubt(estimate: Estimate, factor: float) -> Estimate:
     """
     state, covariance, surprise = instance("estimate", estimate, Estimate)
     factor = scalar("factor", factor, low=1.0)
-    lost = covariance[0, 0] + covariance[1, 1] > DOUBTED**2
-    return Estimate(state.copy(), (1.0 if lost else factor) * covariance, surprise)
+    return Estimate(state.copy(), (1.0 if estimate.lost else factor) * covariance, surprise)
 
 
 def _used(estimate: Estimate, gate: float, use: Callable, *numbers) -> Estimate:

@@ -49,21 +49,26 @@ def number(value: float) -> str:
 
 
 def templates() -> dict[str, str]:
-    """The texts of the files, by name, in which @name@ stands for a number."""
+    """The texts of the files, by name, in which @part.name@ stands for a number."""
     return {path.name: path.read_text(encoding="utf-8") for path in sorted(TEMPLATES.iterdir())}
 
 
 def files(robot: Robot) -> dict[str, str]:
-    """The files for the robot, by name: for C, for Arduino, and parameters for ROS 2."""
+    """The files for the robot, by name: for C and Arduino, and parameters for ROS 2."""
     settings = sheet(robot)
-    numbers = robot._asdict() | settings._asdict()
-    for part in settings.gains, settings.turn, settings.rules:
-        numbers |= part._asdict()
-    words = {name: number(value) for name, value in numbers.items() if np.isscalar(value)}
+    parts = {"robot": robot, "sheet": settings}  # each has names of its own: two say "settle"
+    parts |= {name: getattr(settings, name) for name in ("gains", "wheels", "turn", "rules")}
+    words = {
+        f"{part}.{name}": number(value)
+        for part, values in parts.items()
+        for name, value in values._asdict().items()
+        if np.isscalar(value)
+    }
     for name in ("start_lat", "start_lon", "goal_lat", "goal_lon"):
-        words[f"{name}_e7"] = f"{math.floor(1e7 * numbers[name] + 0.5)}"
-        words[name] = f"{numbers[name]:.7f}"
+        degrees = getattr(robot, name)
+        words[f"robot.{name}_e7"] = f"{math.floor(1e7 * degrees + 0.5)}"
+        words[f"robot.{name}"] = f"{degrees:.7f}"
     return {
-        name: re.sub("@([a-z0-9_]+)@", lambda match: words[match[1]], text)
+        name: re.sub("@([a-z0-9_.]+)@", lambda match: words[match[1]], text)
         for name, text in templates().items()
     }

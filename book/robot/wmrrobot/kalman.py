@@ -77,7 +77,7 @@ def gated(state, covariance, rows, residuals, variance, gate):
 @compiled
 def carry(state, covariance, v, omega, gyro, dt, noise, gate):
     """A step by wheels and gyro: their difference measures the bias, their mean turns the robot."""
-    wheels, white, bias_walk, scale_walk, track_width = noise
+    wheels, white, bias_walk, scale_walk, track_width, _ = noise
     speed_rate, turn_rate = sensing.wheel_noise(v, omega, track_width, wheels)
     share, surprise, gyro_rate = 1.0, 0.0, white * white
     if gyro == gyro:  # not NaN

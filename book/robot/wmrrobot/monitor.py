@@ -12,7 +12,7 @@ from typing import NamedTuple
 from wmrlib.body import Wheels
 from wmrlib.checks import checked
 from wmrlib.elementary import distance, wrap
-from wmrrobot.odometry import Past, Place, carry, copy_place, look_back, remember
+from wmrrobot.odometry import Past, Place, carry, copy_place, look_back, remember, shift
 
 STATES = "wait", "drive", "turn", "parked", "stopped"
 WAIT, DRIVE, TURN, PARKED, STOPPED = range(len(STATES))
@@ -33,10 +33,13 @@ class Rules(NamedTuple):
     patience : float, s. So long after the last usable fix the robot stops and waits.
     oldest, largest_error : float; s, m. An older fix, or one with a larger error, is not used.
         Give `oldest` the usual delay of your receiver and 0.2 s more, `patience` two fixes more.
+    least : int. Nor is a fix of a lower quality used, by NMEA: 1 GPS, 2 differential, 3 PPS, 5 RTK
+        float and, the best, 4 RTK fixed.
     settle : int. Number of good fixes in a row after which the robot may drive.
     jump, slip : float; m, no unit. Nor is a fix used that is farther than jump from the position by
-        odometry, which may itself err by the share slip of the rolled distance. One wheel
-        alone may slip by about astray times the track width over `course`: then it is `astray`.
+        odometry, which may itself err by the share slip of the rolled distance. After a jump, it
+        is used again once `settle` fixes in a row are within jump alone. One wheel alone may slip
+        by about astray times the track width over `course`: then it is `astray`.
     frozen : float, m. After rolling so far with the same position to the last bit, the receiver
         counts as dead.
     course, astray : float; m, rad. Over legs of length course, the headings by fixes and by wheels
@@ -44,8 +47,8 @@ class Rules(NamedTuple):
     wheel, share : float; m, no unit. A wheel that was commanded to roll the distance wheel and
         rolled less than this share of it is stuck; one that rolled so far and was commanded less
         than this share is loose.
-    longest_period, longest_drive : float, s. Longer periods count as a jump of the clock; a longer
-        drive is stopped.
+    longest_period, longest_drive, longest_wait : float, s. Longer periods count as a jump of the
+        clock; a longer drive is stopped, and so is one that waits longer on its way.
     farthest : float, m. A goal that is farther away counts as a mistake.
     battery : float, V. Below it for the time of `patience`, the robot stops.
     """
@@ -54,6 +57,7 @@ class Rules(NamedTuple):
     patience: float = 0.5
     oldest: float = 0.3
     largest_error: float = 1.0
+    least: int = 1
     settle: int = 3
     jump: float = 1.0
     slip: float = 0.2
@@ -64,6 +68,7 @@ class Rules(NamedTuple):
     share: float = 0.25
     longest_period: float = 0.15
     longest_drive: float = 300.0
+    longest_wait: float = 60.0
     farthest: float = 500.0
     battery: float = 0.0
 
@@ -79,6 +84,8 @@ class Seen(NamedTuple):
     goal_inside, inside, fresh : int; whether the goal is inside the fence, whether the fix is, and
         whether there is a new fix: with 0 the fields below are not read
     x, y, heading : float; m, m, rad
+    antenna_ahead, antenna_left : float, m. The place on the robot that x and y are of, from the
+        middle between the wheels: the receiver's antenna, or 0 for a filter's position.
     quality : int, NMEA's: 1 to 5 are GPS, differential, PPS and RTK, others are no fix
     error : float, m. The accuracy that the receiver, or a filter, reports; 0 if it reports none
     later, age : float, s; time from the fix before by the receiver's own clock, and age of the fix
@@ -94,6 +101,8 @@ class Seen(NamedTuple):
     x: float = 0.0
     y: float = 0.0
     heading: float = 0.0
+    antenna_ahead: float = 0.0
+    antenna_left: float = 0.0
     quality: int = 4
     error: float = 0.0
     later: float = 0.1
@@ -130,6 +139,7 @@ class Memory:
     silence: float = 0.0  # s since the last usable fix
     good: int = 0  # usable fixes in a row
     refused: int = NONE  # why the last fix was not used
+    near: int = 0  # fixes in a row that had not jumped
     past: Past = field(default_factory=Past)
     fix: Place = field(default_factory=Place)  # the last one, carried on to now by odometry
     since: float = 0.0  # m rolled since the last usable fix
@@ -146,16 +156,25 @@ class Memory:
     astray: int = 0
     slipping: int = 0
     driven: float = 0.0  # s
+    waited: float = 0.0  # s in a row, on its way
     rho: float = 0.0
     remaining_turn: float = 0.0  # rad to the goal's heading
     facing: int = 0  # periods in a row with the goal's heading
     faced: float = 0.0  # s of these
 
 
+def rank(quality: int) -> int:
+    """The order of NMEA's qualities: RTK float, 5, is worse than RTK fixed, 4; 0 is no fix."""
+    if quality < 1 or quality > 5:
+        return 0
+    return quality if quality < 4 else 9 - quality
+
+
 def bring_up(m: Memory, seen: Seen) -> None:
-    """Carry a fix on by the odometry since it was measured."""
+    """Carry a fix from the antenna to the middle, and on by the odometry since it was measured."""
     look_back(m.past, seen.age)
     m.fix.x, m.fix.y, m.fix.heading = seen.x, seen.y, seen.heading
+    shift(m.fix, -seen.antenna_ahead, -seen.antenna_left)
     carry(m.fix, m.past.since.ahead, m.past.since.turn)
 
 
@@ -179,8 +198,8 @@ def refusal_of(m: Memory, seen: Seen, rules: Rules) -> int:
     """The reason why a fix cannot be used, or NONE; the fix is carried on to now."""
     if not (abs(seen.x) + abs(seen.y) + abs(seen.heading) < 1e9 and abs(seen.age) < 1e9):
         return BROKEN
-    measured = seen.quality >= 1 and seen.quality <= 5
-    if not measured or not seen.error <= rules.largest_error:
+    good = rank(seen.quality) >= rank(rules.least)
+    if not good or not seen.error <= rules.largest_error:
         return POOR
     if seen.age > rules.oldest or seen.age < 0.0:
         return LATE
@@ -190,7 +209,9 @@ def refusal_of(m: Memory, seen: Seen, rules: Rules) -> int:
     if m.still > rules.frozen:
         return FROZEN
     gap = distance(m.fix.x - m.pose.x, m.fix.y - m.pose.y)
-    if gap > rules.jump + rules.slip * m.since:
+    jumped = m.refused == JUMPED and m.driven > 0.0  # the fix before: now odometry is no excuse
+    m.near = m.near + 1 if gap <= rules.jump + (0.0 if jumped else rules.slip * m.since) else 0
+    if m.near == 0 or (jumped and m.near < rules.settle):
         return JUMPED
     if abs(wrap(m.fix.heading - m.leg.heading)) > rules.astray and m.driven > 0.0:
         return TURNED
@@ -250,6 +271,7 @@ def observe(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
     m.turning += abs(turn)
     m.silence += passed
     m.low = m.low + dt if not seen.battery >= rules.battery else 0.0
+    m.waited = m.waited + dt if m.state == WAIT and m.driven > 0.0 else 0.0
     m.driven += dt if m.state == DRIVE or m.state == TURN else 0.0
     m.good = m.good if m.regular and m.silence <= rules.patience else 0
     if seen.fresh:

@@ -48,6 +48,13 @@ def carry(place: Place, ahead: float, turn: float) -> None:
     place.heading = wrap(place.heading + turn)
 
 
+def shift(place: Place, ahead: float, left: float) -> None:
+    """Move a pose ahead and to the left, without a turn."""
+    east, north = cos(place.heading), sin(place.heading)
+    place.x += ahead * east - left * north
+    place.y += ahead * north + left * east
+
+
 def copy_place(place: Place, other: Place) -> None:
     """Copy the other pose into the first."""
     place.x, place.y, place.heading = other.x, other.y, other.heading

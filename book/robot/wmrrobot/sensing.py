@@ -25,6 +25,7 @@ class Noise(NamedTuple):
     bias_walk : float, rad/s/sqrt(s). Standard deviation of the gyro bias's change in 1 s.
     scale_walk : float, 1/sqrt(s). Standard deviation of the wheel scale's change in 1 s.
     track_width : float, m. Distance between the wheels.
+    max_speed : float, m/s. The wheels' top speed: a reading of half as much again is no speed.
 
     Raises
     ------
@@ -36,6 +37,7 @@ class Noise(NamedTuple):
     bias_walk: float = 1e-5
     scale_walk: float = 1e-5
     track_width: float = 0.5
+    max_speed: float = 100.0
 
 
 @formula

@@ -26,6 +26,8 @@ NEAREST = 0.05  # m: no radius is smaller
 MOVES = 1.25  # times the dead band a wheel surely turns
 COARSE = 0.35  # rad: a last turn that is coarser is none
 MARGIN = 0.2  # s: a fix may be so much older than usual
+STEADY = 4.0  # sigmas: two fixes of a sound receiver differ by less
+CLOSE = 0.1  # m: no jump that is smaller is refused
 FAR = 1000.0  # m
 RUNS, SEED, SHARE = 400, 14, 0.95
 GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0  # spreads the first headings evenly
@@ -43,6 +45,9 @@ class Robot(NamedTuple):
     period, delay : float, s; of the control loop, and how old the pose is that it sees
     sigma, memory, fix_period, compass : float, m, s, s, degrees; of the receiver's error to the
         east and to the north, and of the compass, which errs by one angle in a drive
+    quality : float, the least that a fix must have, as NMEA counts: 1 GPS, 2 differential, 5 RTK
+        float and, the best, 4 RTK fixed
+    antenna_ahead, antenna_left : float, m from the middle between the wheels
     """
 
     start_lat: float = 33.273572
@@ -60,6 +65,9 @@ class Robot(NamedTuple):
     memory: float = 10.0
     fix_period: float = 0.2
     compass: float = 3.0
+    quality: float = 4.0
+    antenna_ahead: float = 0.0
+    antenna_left: float = 0.0
 
 
 BOUNDS = {
@@ -76,14 +84,16 @@ BOUNDS = {
     "memory": (0.0, 10000.0, "s"),
     "fix_period": (0.01, 5.0, "s"),
     "compass": (0.0, 45.0, "degrees"),
+    "quality": (1.0, 5.0, ""),
+    **dict.fromkeys(("antenna_ahead", "antenna_left"), (-5.0, 5.0, "m")),
 }
 RECEIVERS = {
-    "GPS alone": {"sigma": 1.5, "memory": 300.0},
-    "SBAS": {"sigma": 0.7, "memory": 300.0},
-    "RTK float": {"sigma": 0.2, "memory": 60.0},
-    "RTK fixed": {"sigma": 0.014, "memory": 10.0},
+    "GPS alone": {"sigma": 1.5, "memory": 300.0, "quality": 1.0},
+    "SBAS": {"sigma": 0.7, "memory": 300.0, "quality": 2.0},
+    "RTK float": {"sigma": 0.2, "memory": 60.0, "quality": 5.0},
+    "RTK fixed": {"sigma": 0.014, "memory": 10.0, "quality": 4.0},
 }
-"""Sigma and memory to begin with, until a log at rest gives those of one's own receiver."""
+"""Numbers to begin with, until a log at rest gives sigma and memory of one's own receiver."""
 
 
 class Sheet(NamedTuple):
@@ -96,7 +106,7 @@ class Sheet(NamedTuple):
     gains: wmr.Gains
     radius: float
     longest_step: float
-    min_speed: float
+    wheels: wmr.Wheels
     turn: wmr.LastTurn
     duration: float
     rules: Rules  # of a drive
@@ -136,6 +146,11 @@ def place_of(robot: Robot) -> tuple[float, float]:
     raise ValueError(message)
 
 
+def arm_of(robot: Robot) -> float:
+    """The distance of the antenna from the middle between the wheels, m."""
+    return math.hypot(robot.antenna_ahead, robot.antenna_left)
+
+
 def sheet(robot: Robot) -> Sheet:
     """Return the settings of a robot, by the rules above.
 
@@ -145,9 +160,11 @@ def sheet(robot: Robot) -> Sheet:
     """
     for name, (low, high, unit) in BOUNDS.items():
         value = scalar(name, getattr(robot, name))
-        if not low <= value <= high:
+        if not low <= value <= high or (name == "quality" and value % 1):
+            kind = "whole number" if name == "quality" else "number"
             swapped = ": are latitude and longitude swapped?" if name.endswith("_lat") else ""
-            raise refused(name, value, f"a number from {low:g} to {high:g} {unit}", swapped)
+            needed = f"a {kind} from {low:g} to {high:g} {unit}".rstrip()
+            raise refused(name, value, needed, swapped)
     x, y = place_of(robot)
     speed, dead, late = robot.max_speed, robot.dead_band, robot.delay + robot.period
     if dead > speed / 2:
@@ -182,19 +199,24 @@ def sheet(robot: Robot) -> Sheet:
     duration = math.ceil(60.0 + 2.0 * travel)
     oldest = robot.delay + MARGIN
     usual = Rules()
-    jump = max(usual.jump, 4 * robot.sigma)
+    wheels = wmr.Wheels(robot.track_width, speed, min_speed, robot.acceleration, dead_band=dead)
+    # A wrong heading turns the antenna about the robot; a speed that changes shows a wrong age.
+    error = math.hypot(robot.sigma, arm_of(robot) * math.radians(robot.compass))
+    aged = MARGIN * min(robot.acceleration * robot.fix_period, speed)
+    jump = max(CLOSE, STEADY * error + aged)
     rules = usual._replace(
         arrival_radius=radius,
         patience=oldest + 2 * max(robot.fix_period, robot.period),
         oldest=oldest,
-        largest_error=max(usual.largest_error, 3 * robot.sigma),
+        largest_error=max(radius, 3 * robot.sigma),
+        least=int(robot.quality),
         jump=jump,
         course=max(usual.course, 3 * jump),  # over less, errors that are allowed turn a leg
         longest_period=max(usual.longest_period, 1.5 * robot.period),
         longest_drive=max(usual.longest_drive, duration),
         farthest=max(usual.farthest, 2 * apart),
     )
-    fields = x, y, heading, apart, gains, radius, longest, min_speed, turn, duration
+    fields = x, y, heading, apart, gains, radius, longest, wheels, turn, duration
     return Sheet(*fields, rules)
 
 
@@ -211,11 +233,11 @@ def certificate(
 
     It first faces the goal to within half of the `spread`, in turns: from behind, a robot whose
     pose is late and whose wheels are slow may swing to and fro for ever. A drive that does not end
-    in time counts as infinitely far off.
+    in time counts as infinitely far off. With an antenna off the middle, the error of the compass
+    is in the place too: it turns the robot about its antenna.
     """
     settings = sheet(robot)
     aside = 2 * math.pi * spread * (np.arange(runs) * GOLDEN % 1.0 - 0.5)
-    wheels = wmr.Wheels(robot.track_width, robot.max_speed, settings.min_speed, robot.acceleration)
     sigma, late = np.full(runs, robot.sigma), robot.delay
     end = wmr.sweep(
         wmr.Pose(0.0, 0.0, math.atan2(settings.y, settings.x) + aside),
@@ -225,7 +247,7 @@ def certificate(
         dt=robot.period,
         duration=settings.duration,
         arrival_radius=settings.radius,
-        wheels=wheels._replace(dead_band=robot.dead_band),
+        wheels=settings.wheels,
         last_turn=settings.turn,
         receiver=wmr.Receiver(sigma, robot.memory, robot.fix_period, late, late),
         seed=seed,
@@ -233,10 +255,10 @@ def certificate(
     )
     key = seed % 2**32, seed // 2**32
     compass = np.array([normals(run, 0, COMPASS, key)[0] for run in range(runs)])
-    turned = wmr.wrap_angle(end.heading_error + math.radians(robot.compass) * compass)
-    place, heading = (
-        np.where(end.arrived, errors, np.inf) for errors in (end.distance, abs(turned))
-    )
+    off = math.radians(robot.compass) * compass
+    turned = wmr.wrap_angle(end.heading_error + off)
+    far = end.distance + 2 * arm_of(robot) * abs(np.sin(off / 2))  # at most
+    place, heading = (np.where(end.arrived, errors, np.inf) for errors in (far, abs(turned)))
     least = sure(runs)
     place_rms, heading_rms = (_rms(errors[end.arrived]) for errors in (place, heading))
     bounds = (

@@ -31,11 +31,22 @@ GROUPS = {
         "sigma": "error of a position, sigma",
         "memory": "memory of that error",
         "fix_period": "time between fixes",
+        "quality": "least quality of a fix, by NMEA",
         "compass": "error of the compass, sigma",
+        "antenna_ahead": "antenna, ahead of the wheels' middle",
+        "antenna_left": "antenna, left of the middle",
     },
 }
-NUMBERS = ("spare", "brake", "nearest", "moves", "coarse", "margin", "far", "golden")
-NUMBERS += ("compass", "runs", "seed", "share")
+# By the number that NMEA has for it: what the certificate presumes of a fix.
+QUALITIES = (
+    "one of GPS or better",
+    "a differential one (SBAS, DGPS) or better",
+    "a PPS one or better",
+    "RTK fixed",
+    "RTK float or fixed",
+)
+NUMBERS = ("spare", "brake", "nearest", "moves", "coarse", "margin", "steady", "close", "far")
+NUMBERS += ("golden", "compass", "runs", "seed", "share")
 
 
 class MyRobot(Panel):
@@ -53,7 +64,8 @@ class MyRobot(Panel):
         }
         rules |= {name: getattr(sheets, name.upper()) for name in NUMBERS}
         groups = [[title, [*fields.items()]] for title, fields in GROUPS.items()]
-        setup = {"groups": groups, "receivers": [*RECEIVERS.items()], "rules": rules}
+        setup = {"groups": groups, "receivers": [*RECEIVERS.items()], "qualities": QUALITIES}
+        setup |= {"rules": rules}
         state = {name: float(value) for name, value in (robot or Robot())._asdict().items()}
         super().__init__("my_robot", state, setup | {"files": exports.templates()})
 

@@ -25,8 +25,8 @@ enum { WMR_FINE, WMR_BATTERY_LOW, WMR_GOAL_OUTSIDE_THE_FENCE,
     WMR_ROBOT_OUTSIDE_THE_FENCE, WMR_GOAL_TOO_FAR, WMR_WHEEL_OR_ENCODER_STUCK,
     WMR_WHEEL_TURNS_UNTOLD, WMR_HEADING_DISAGREES_WITH_WHEELS,
     WMR_WHEELS_TURN_AND_ROBOT_STANDS, WMR_HEADING_DISAGREES_WITH_COURSE,
-    WMR_POSITION_OUTRUNS_THE_WHEELS, WMR_DRIVE_TOO_LONG, WMR_CLOCK_JUMPED,
-    WMR_FIX_IS_NO_NUMBER, WMR_FIX_OF_TOO_LOW_QUALITY, WMR_FIX_TOO_OLD,
+    WMR_POSITION_OUTRUNS_THE_WHEELS, WMR_DRIVE_TOO_LONG, WMR_WAITED_TOO_LONG,
+    WMR_CLOCK_JUMPED, WMR_FIX_IS_NO_NUMBER, WMR_FIX_OF_TOO_LOW_QUALITY, WMR_FIX_TOO_OLD,
     WMR_FIX_TIME_STANDS_OR_GOES_BACK, WMR_POSITION_FROZEN, WMR_POSITION_JUMPED,
     WMR_NO_FIX, WMR_TOO_FEW_GOOD_FIXES };
 enum { WMR_PAST = 8 };
@@ -38,24 +38,26 @@ typedef struct { WMR_REAL track_width; WMR_REAL max_speed; WMR_REAL min_speed;
 typedef struct { WMR_REAL tolerance; WMR_REAL gain; WMR_REAL min_rate;
     WMR_REAL max_rate; WMR_REAL leave; WMR_REAL settle; } wmr_last_turn;
 typedef struct { WMR_REAL arrival_radius; WMR_REAL patience; WMR_REAL oldest;
-    WMR_REAL largest_error; int settle; WMR_REAL jump; WMR_REAL slip; WMR_REAL frozen;
-    WMR_REAL course; WMR_REAL astray; WMR_REAL wheel; WMR_REAL share;
-    WMR_REAL longest_period; WMR_REAL longest_drive; WMR_REAL farthest;
-    WMR_REAL battery; } wmr_rules;
+    WMR_REAL largest_error; int least; int settle; WMR_REAL jump; WMR_REAL slip;
+    WMR_REAL frozen; WMR_REAL course; WMR_REAL astray; WMR_REAL wheel; WMR_REAL share;
+    WMR_REAL longest_period; WMR_REAL longest_drive; WMR_REAL longest_wait;
+    WMR_REAL farthest; WMR_REAL battery; } wmr_rules;
 typedef struct { WMR_REAL seconds; WMR_REAL left; WMR_REAL right; WMR_REAL battery;
     int goal_inside; int inside; int fresh; WMR_REAL x; WMR_REAL y; WMR_REAL heading;
-    int quality; WMR_REAL error; WMR_REAL later; WMR_REAL age; } wmr_seen;
+    WMR_REAL antenna_ahead; WMR_REAL antenna_left; int quality; WMR_REAL error;
+    WMR_REAL later; WMR_REAL age; } wmr_seen;
 typedef struct { WMR_REAL commanded; WMR_REAL speed; WMR_REAL due; WMR_REAL rolled;
     int stuck; int loose; } wmr_wheel;
 typedef struct { WMR_REAL seconds; WMR_REAL ahead; WMR_REAL turn; } wmr_stretch;
 typedef struct { wmr_stretch stretches[WMR_PAST]; int newest; wmr_stretch since; }
     wmr_past;
 typedef struct { int state; int reason; wmr_pose pose; wmr_wheel left; wmr_wheel right;
-    int regular; WMR_REAL low; WMR_REAL silence; int good; int refused; wmr_past past;
-    wmr_pose fix; WMR_REAL since; WMR_REAL x; WMR_REAL y; WMR_REAL still; int outside;
-    int outran; wmr_pose begin; wmr_pose leg; WMR_REAL length; WMR_REAL turning;
-    int turned; int astray; int slipping; WMR_REAL driven; WMR_REAL rho;
-    WMR_REAL remaining_turn; int facing; WMR_REAL faced; } wmr_memory;
+    int regular; WMR_REAL low; WMR_REAL silence; int good; int refused; int near;
+    wmr_past past; wmr_pose fix; WMR_REAL since; WMR_REAL x; WMR_REAL y; WMR_REAL still;
+    int outside; int outran; wmr_pose begin; wmr_pose leg; WMR_REAL length;
+    WMR_REAL turning; int turned; int astray; int slipping; WMR_REAL driven;
+    WMR_REAL waited; WMR_REAL rho; WMR_REAL remaining_turn; int facing; WMR_REAL faced;
+    } wmr_memory;
 typedef struct {
   wmr_pose goal;
   wmr_gains gains;
@@ -65,9 +67,9 @@ typedef struct {
 } wmr_plan;
 
 /* the rules that Python has unless it is told others */
-#define WMR_USUAL_RULES {WMR_C(0.2), WMR_C(0.5), WMR_C(0.3), WMR_C(1.0), 3, WMR_C(1.0), \
-    WMR_C(0.2), WMR_C(0.3), WMR_C(4.0), WMR_C(0.8), WMR_C(0.48), WMR_C(0.25), \
-    WMR_C(0.15), WMR_C(300.0), WMR_C(500.0), WMR_C(0.0)}
+#define WMR_USUAL_RULES {WMR_C(0.2), WMR_C(0.5), WMR_C(0.3), WMR_C(1.0), 1, 3, \
+    WMR_C(1.0), WMR_C(0.2), WMR_C(0.3), WMR_C(4.0), WMR_C(0.8), WMR_C(0.48), \
+    WMR_C(0.25), WMR_C(0.15), WMR_C(300.0), WMR_C(60.0), WMR_C(500.0), WMR_C(0.0)}
 
 /* The reason in words. */
 static inline const char *wmr_reason(int reason) {
@@ -84,6 +86,7 @@ static inline const char *wmr_reason(int reason) {
     "heading disagrees with course",
     "position outruns the wheels",
     "drive too long",
+    "waited too long",
     "clock jumped",
     "fix is no number",
     "fix of too low quality",
@@ -103,6 +106,14 @@ static inline void wmr_carry(wmr_pose *place, WMR_REAL ahead, WMR_REAL turn) {
   place->x += chord * WMR_F(cos)(place->heading + WMR_C(0.5) * turn);
   place->y += chord * WMR_F(sin)(place->heading + WMR_C(0.5) * turn);
   place->heading = wmr_wrap(place->heading + turn);
+}
+
+/* Move a pose ahead and to the left, without a turn. */
+static inline void wmr_shift(wmr_pose *place, WMR_REAL ahead, WMR_REAL left) {
+  const WMR_REAL east = WMR_F(cos)(place->heading);
+  const WMR_REAL north = WMR_F(sin)(place->heading);
+  place->x += ahead * east - (left * north);
+  place->y += ahead * north + left * east;
 }
 
 /* Copy the other pose into the first. */
@@ -149,12 +160,21 @@ static inline void wmr_look_back(wmr_past *past, WMR_REAL age) {
   }
 }
 
-/* Carry a fix on by the odometry since it was measured. */
+/* The order of NMEA's qualities: RTK float, 5, is worse than RTK fixed, 4; 0 is no fix. */
+static inline int wmr_rank(int quality) {
+  if (quality < 1 || quality > 5) {
+    return 0;
+  }
+  return (quality < 4) ? quality : (9 - quality);
+}
+
+/* Carry a fix from the antenna to the middle, and on by the odometry since it was measured. */
 static inline void wmr_bring_up(wmr_memory *m, const wmr_seen *seen) {
   wmr_look_back(&m->past, seen->age);
   m->fix.x = seen->x;
   m->fix.y = seen->y;
   m->fix.heading = seen->heading;
+  wmr_shift(&m->fix, -seen->antenna_ahead, -seen->antenna_left);
   wmr_carry(&m->fix, m->past.since.ahead, m->past.since.turn);
 }
 
@@ -188,8 +208,8 @@ static inline int wmr_refusal_of(wmr_memory *m, const wmr_seen *seen,
       WMR_C(1000000000.0) && WMR_F(fabs)(seen->age) < WMR_C(1000000000.0))) {
     return WMR_BROKEN;
   }
-  const int measured = seen->quality >= 1 && seen->quality <= 5;
-  if (!measured || !(seen->error <= rules->largest_error)) {
+  const int good = wmr_rank(seen->quality) >= wmr_rank(rules->least);
+  if (!good || !(seen->error <= rules->largest_error)) {
     return WMR_POOR;
   }
   if (seen->age > rules->oldest || seen->age < WMR_C(0.0)) {
@@ -203,7 +223,10 @@ static inline int wmr_refusal_of(wmr_memory *m, const wmr_seen *seen,
     return WMR_FROZEN;
   }
   const WMR_REAL gap = wmr_distance(m->fix.x - m->pose.x, m->fix.y - m->pose.y);
-  if (gap > rules->jump + rules->slip * m->since) {
+  const int jumped = m->refused == WMR_JUMPED && m->driven > WMR_C(0.0);
+  m->near = (gap <= rules->jump + (jumped ? WMR_C(0.0) : (rules->slip * m->since))) ?
+      (m->near + 1) : 0;
+  if (m->near == 0 || (jumped && m->near < rules->settle)) {
     return WMR_JUMPED;
   }
   if (WMR_F(fabs)(wmr_wrap(m->fix.heading - m->leg.heading)) > rules->astray &&
@@ -284,6 +307,8 @@ static inline void wmr_observe(wmr_memory *m, const wmr_seen *seen,
   m->turning += WMR_F(fabs)(turn);
   m->silence += passed;
   m->low = (!(seen->battery >= rules->battery)) ? (m->low + dt) : WMR_C(0.0);
+  m->waited = (m->state == WMR_WAIT && m->driven > WMR_C(0.0)) ? (m->waited + dt) :
+      WMR_C(0.0);
   m->driven += (m->state == WMR_DRIVE || m->state == WMR_TURN) ? dt : WMR_C(0.0);
   m->good = (m->regular && m->silence <= rules->patience) ? m->good : 0;
   if (seen->fresh) {
@@ -377,6 +402,10 @@ static inline void wmr_decide(wmr_memory *m, const wmr_seen *seen, const wmr_rul
   }
   if (m->state <= WMR_TURN && m->driven > rules->longest_drive) {
     m->state = WMR_STOPPED, m->reason = WMR_DRIVE_TOO_LONG;
+    return;
+  }
+  if (m->state <= WMR_WAIT && m->waited > rules->longest_wait) {
+    m->state = WMR_STOPPED, m->reason = WMR_WAITED_TOO_LONG;
     return;
   }
   if (m->state <= WMR_TURN && m->regular == 0) {

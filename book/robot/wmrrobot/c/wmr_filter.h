@@ -18,6 +18,7 @@
 #define WMR_SIZE 5
 #define WMR_GATE_1 WMR_C(10.83)
 #define WMR_GATE_2 WMR_C(13.82)
+#define WMR_LONGEST WMR_C(60.0) /* s, of a step */
 
 typedef struct {
   WMR_REAL state[WMR_SIZE]; /* x, y, heading, gyro_bias, wheel_scale */
@@ -25,9 +26,10 @@ typedef struct {
   WMR_REAL surprise; /* of the last measurement, used or not */
 } wmr_filter;
 
-/* m after the first metre of a wheel; rad/sqrt(s), above 0; rad/s/sqrt(s); 1/sqrt(s); m */
+/* m after the first metre of a wheel; rad/sqrt(s), above 0; rad/s/sqrt(s); 1/sqrt(s); m; m/s,
+   the wheels' top speed: a faster reading is a fault of an encoder */
 typedef struct {
-  WMR_REAL wheels, gyro, bias_walk, scale_walk, track_width;
+  WMR_REAL wheels, gyro, bias_walk, scale_walk, track_width, max_speed;
 } wmr_noise;
 
 /* x, y, heading after a step */
@@ -227,8 +229,9 @@ static inline int wmr_filter_predict(wmr_filter *filter, WMR_REAL v, WMR_REAL om
   WMR_REAL rates[2], twist[2], pose[3], slopes[21];
   WMR_REAL step[WMR_SIZE][WMR_SIZE] = {{zero}}, share = one, *state = filter->state;
   int together = 1;
-  if (!wmr_is_finite(v) || !wmr_is_finite(omega) || !wmr_is_finite(dt) || dt <= zero)
+  if (!wmr_is_finite(v) || !wmr_is_finite(omega) || !(dt > zero && dt <= WMR_LONGEST))
     return 0;
+  if (!(wmr_fastest_wheel(v, omega, noise.track_width) <= WMR_C(1.5) * noise.max_speed)) return 0;
   wmr_wheel_noise(v, omega, noise.track_width, noise.wheels, rates);
   if (wmr_is_finite(gyro)) {
     const WMR_REAL row[WMR_SIZE] = {zero, zero, zero, one, omega};
@@ -259,13 +262,20 @@ static inline int wmr_filter_predict(wmr_filter *filter, WMR_REAL v, WMR_REAL om
 
 /* The same state, less certain: for a gate that has refused several measurements in a row
    and may be refusing the truth. Call it with 4, say, at each refusal from then on. A place
-   that is uncertain by more than 100 m is not doubted further: such a measurement has no
-   number, or another fault. */
+   that is uncertain by more than 100 m is not doubted further: it is lost. */
 static inline void wmr_filter_doubt(wmr_filter *filter, WMR_REAL factor) {
   int i, j;
   if (filter->covariance[0][0] + filter->covariance[1][1] > WMR_C(1e4)) return;
   for (i = 0; i < WMR_SIZE; ++i)
     for (j = 0; j < WMR_SIZE; ++j) filter->covariance[i][j] *= factor;
+}
+
+/* Whether it is uncertain by more than 100 m, or no number: start again from the next fix. */
+static inline int wmr_filter_is_lost(const wmr_filter *filter) {
+  const WMR_REAL area = filter->covariance[0][0] + filter->covariance[1][1];
+  for (int i = 0; i < WMR_SIZE; ++i)
+    if (!wmr_is_finite(filter->state[i])) return 1;
+  return !(area >= WMR_C(0.0) && area <= WMR_C(1e4));
 }
 
 /* Uses the position of an antenna `ahead` and `left` of the middle of the wheels [m],

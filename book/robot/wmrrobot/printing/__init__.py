@@ -18,3 +18,5 @@ from wmrrobot.printing.python import PYTHON_MODULE, python_module  # noqa: F401
 
 C_EXAMPLE = C_DRIVE.with_name("example.c")
 """A robot's main loop."""
+C_PLANT = C_DRIVE.with_name("plant.h")
+"""A simulated robot for it."""

@@ -2,7 +2,7 @@
 export const CONTRACTS = {
   'explorer': 'a7b10af4',
   'front': '76d67975',
-  'my_robot': '02ef3a6e',
+  'my_robot': '25985371',
   'live/bearing': '60e78b54',
   'live/bowl': '1801ab77',
   'live/corners': '3f28138c',

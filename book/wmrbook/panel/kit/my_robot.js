@@ -68,11 +68,13 @@ const told = (robot, { gains, turn, ...sheet }) => [
   ['v_max', written(gains.v_max, 'm/s')],
   ['kappa, 2 to 1 + h', written(gains.k_alpha / (gains.k_rho * gains.v_max))],
   ['longest step', `${written(sheet.longest_step, 's')} (yours: ${written(robot.period, 's')})`],
-  ['least speed', written(sheet.min_speed, 'm/s')],
+  ['least speed', written(sheet.wheels.min_speed, 'm/s')],
   ['last turn, within', written(turn.tolerance * DEGREES, '°')],
   ['last turn, rates', `${written(turn.min_rate)} to ${written(turn.max_rate, 'rad/s')}`],
   ['oldest fix, patience',
     `${written(sheet.rules.oldest)} and ${written(sheet.rules.patience, 's')}`],
+  ['largest error, jump of a fix',
+    `${written(sheet.rules.largest_error)} and ${written(sheet.rules.jump, 'm')}`],
 ];
 
 const bounded = (value, unit) => (value === Infinity ? 'no bound' : written(value, unit));
@@ -88,7 +90,7 @@ const expected = (found, runs) => [
 
 function render({ model, el }) {
   const root = made(el, 'div', { className: 'wmr my-robot' }),
-      { groups, receivers, rules, files: templates } = model.get('setup');
+      { groups, receivers, qualities, rules, files: templates } = model.get('setup');
   root.dataset.lmSuppressShortcuts = 'true';
   keepKeys(root);
   const form = made(root, 'div', { className: 'my-fields' }), inputs = {};
@@ -103,6 +105,7 @@ function render({ model, el }) {
   let colours, turn = 0, ends = [], sheet = null, waiting = 0;
 
   const robot = () => model.get('state');
+  const presumed = () => qualities[robot().quality - 1];
   function change(values) {
     model.set('state', { ...robot(), ...values });
     model.save_changes();
@@ -173,7 +176,8 @@ function render({ model, el }) {
         'certain of the others. Try a shorter delay, slower or stronger wheels.'
       : `With 95 % confidence, 95 of 100 drives end within ${written(found.place_bound, 'm')} of ` +
         `the goal, and as many within ${written(found.heading_bound * DEGREES, '°')} of its ` +
-        'heading, if robot and receiver are as you say.';
+        `heading, if robot and receiver are as you say, and while every fix is ${presumed()}. With ` +
+        'another fix the robot waits.';
     canvas.setAttribute('aria-label', `The robot about its goal after ${found.parked} drives: ` +
       `${written(found.place_rms, 'm')} off, root mean square.`);
     Object.assign(root, { found: { sheet, ends, ...found,

@@ -24,6 +24,9 @@ export function placeOf([lat, lon], [lat2, lon2], earth) {
   return [share * east, share * north];
 }
 
+// How far the antenna is from the middle between the wheels, m.
+const armOf = ({ antenna_ahead: ahead, antenna_left: left }) => Math.hypot(ahead, left);
+
 /** @param {Values} robot @param {Values} rules */
 function checkedPlace(robot, { far, earth }) {
   const start = [robot.start_lat, robot.start_lon], goal = [robot.goal_lat, robot.goal_lon];
@@ -41,9 +44,11 @@ function checkedPlace(robot, { far, earth }) {
  */
 export function sheetOf(robot, rules) {
   for (const [name, [low, high, unit]] of Object.entries(rules.bounds))
-    if (!(robot[name] >= low && robot[name] <= high)) {
+    if (!(robot[name] >= low && robot[name] <= high)
+        || (name === 'quality' && robot[name] % 1)) {
+      const kind = name === 'quality' ? 'whole number' : 'number';
       const { message } = notAllowed(name, digits(robot[name]),
-          `a number from ${low} to ${high} ${unit}`);
+          `a ${kind} from ${low} to ${high} ${unit}`.trimEnd());
       throw new RangeError(message
         + (name.endsWith('_lat') ? ': are latitude and longitude swapped?' : ''));
     }
@@ -74,19 +79,22 @@ export function sheetOf(robot, rules) {
       + `${(tolerance * DEGREES).toFixed(0)} deg`);
   }
   const oldest = delay + rules.margin, { usual } = rules,
-      jump = Math.max(usual.jump, 4 * robot.sigma);
+      error = Math.hypot(robot.sigma, armOf(robot) * robot.compass / DEGREES),
+      aged = rules.margin * Math.min(acceleration * robot.fix_period, speed),
+      jump = Math.max(rules.close, rules.steady * error + aged);
   const k = rate / vMax, near = (rho) => Math.log1p(-Math.exp(-k * rho)),
       travel = (k * (distance - radius) + near(distance) - near(radius)) / rate,
       duration = Math.ceil(60 + 2 * travel);
   return { x, y, heading: wrap((90 - robot.bearing) / DEGREES), distance, radius,
       gains: { k_rho: k, k_alpha: kappa * rate, h, v_max: vMax },
-      longest_step: rules.step / rate, min_speed: minSpeed,
+      longest_step: rules.step / rate,
+      wheels: { track_width: width, max_speed: speed, min_speed: minSpeed, acceleration, lag: 0,
+        dead_band: dead, encoder_step: 0 },
       turn: { tolerance, gain, min_rate: minRate, max_rate: maxRate, leave: rules.leave,
         settle: late + Math.max(minRate, gain * tolerance) / braking },
       duration, rules: { ...usual, arrival_radius: radius, oldest,
         patience: oldest + 2 * Math.max(robot.fix_period, robot.period),
-        largest_error: Math.max(usual.largest_error, 3 * robot.sigma),
-        jump, course: Math.max(usual.course, 3 * jump),
+        largest_error: Math.max(radius, 3 * robot.sigma), least: robot.quality, jump, course: Math.max(usual.course, 3 * jump),
         longest_period: Math.max(usual.longest_period, 1.5 * robot.period),
         longest_drive: Math.max(usual.longest_drive, duration),
         farthest: Math.max(usual.farthest, 2 * distance) } };
@@ -117,19 +125,21 @@ function sightOf({ sigma, memory, fix_period, delay, period: dt }, run, seed) {
 
 // One run to the goal: where it ends, seen from there, m and rad; infinitely far if not in time.
 export function parkedRun(robot, told, rules, run) {
-  const { track_width: b, max_speed, acceleration, dead_band, period: dt } = robot;
+  const { track_width: b, acceleration, dead_band, period: dt } = robot;
   const first = Math.atan2(told.y, told.x) + Math.PI * ((run * rules.golden) % 1 - 0.5);
   let end = [0, 0, 0], time = 0;
   const [, outcome] = drive({ law: 'corrected', step: arcStep, moving: false, gains: told.gains, dt,
     samples: Math.floor(told.duration / dt + 1e-9) + 1, start: [0, 0, wrap(first)],
     goal: [told.x, told.y, told.heading], arrivalRadius: told.radius, end: told.turn,
-    limits: { b, max_speed, min_speed: told.min_speed }, motors: [b, acceleration, 0, dead_band, 0],
+    limits: { b, ...told.wheels }, motors: [b, acceleration, 0, dead_band, 0],
     sight: sightOf(robot, run, rules.seed) }, (k, t, pose) => { [end, time] = [pose, t]; });
   if (outcome !== ARRIVED) return { place: Infinity, heading: Infinity, time: Infinity };
-  const [compass] = normals(run, 0, rules.seed, rules.compass);
-  const turned = wrap(end[2] - told.heading + robot.compass / DEGREES * compass);
+  const [compass] = normals(run, 0, rules.seed, rules.compass),
+      off = robot.compass / DEGREES * compass;
+  const turned = wrap(end[2] - told.heading + off);
   return { at: [end[0] - told.x, end[1] - told.y, told.heading + turned], time,
-      place: Math.hypot(end[0] - told.x, end[1] - told.y), heading: Math.abs(turned) };
+      place: Math.hypot(end[0] - told.x, end[1] - told.y)
+        + 2 * armOf(robot) * Math.abs(Math.sin(off / 2)), heading: Math.abs(turned) };
 }
 
 // Which of the runs' sorted values is the bound, as `sure` of wmrrobot/sheets.py.
@@ -161,14 +171,14 @@ export function filesOf(robot, told, templates) {
     const text = Number(value.toPrecision(6)).toFixed(10).replace(/0+$/, '');
     return text.endsWith('.') ? `${text}0` : text;
   };
-  const words = {};
-  const numbers = { ...robot, ...told, ...told.gains, ...told.turn, ...told.rules };
-  for (const [name, value] of Object.entries(numbers))
-    if (typeof value === 'number') words[name] = number(value);
+  const words = {}, { gains, wheels, turn, rules } = told;
+  for (const [part, values] of Object.entries({ robot, sheet: told, gains, wheels, turn, rules }))
+    for (const [name, value] of Object.entries(values))
+      if (typeof value === 'number') words[`${part}.${name}`] = number(value);
   for (const name of ['start_lat', 'start_lon', 'goal_lat', 'goal_lon']) {
-    words[`${name}_e7`] = String(Math.floor(1e7 * robot[name] + 0.5));
-    words[name] = robot[name].toFixed(7);
+    words[`robot.${name}_e7`] = String(Math.floor(1e7 * robot[name] + 0.5));
+    words[`robot.${name}`] = robot[name].toFixed(7);
   }
   return Object.fromEntries(Object.entries(templates).map(([name, text]) =>
-    [name, text.replace(/@([a-z0-9_]+)@/g, (_, word) => words[word])]));
+    [name, text.replace(/@([a-z0-9_.]+)@/g, (_, word) => words[word])]));
 }

@@ -18,22 +18,20 @@ class Pilot {
   wmr_filter filter;
   int32_t lat, lon;          // of the origin, degrees * 1e7
   float delay, compass;      // s, rad: of the receiver's fixes, and the compass's error
+  float ahead, left;         // m: the antenna, from the middle between the wheels
   float fence;               // m round the rectangle of origin and goal
   void (*meanwhile)();       // called where a fix takes long, to empty the UART's buffer
 
-  void goal(int32_t goal_lat, int32_t goal_lon, float heading) {
-    wmr_local_position_e7(lat, lon, goal_lat, goal_lon, &plan.goal.x, &plan.goal.y);
-    plan.goal.heading = heading;
-  }
+  void start(int32_t start_lat, int32_t start_lon) { lat = start_lat, lon = start_lon; }
 
   // First in a period: what the wheels rolled.
-  WMR_APART void roll(float seconds, float left, float right) {
+  WMR_APART void roll(float seconds, float rolled, float right) {
     const float dt = seconds > 0 ? seconds : 1;
     seen = wmr_seen();
-    seen.seconds = seconds, seen.left = left, seen.right = right;
-    v = (left + right) / 2 / dt;
+    seen.seconds = seconds, seen.left = rolled, seen.right = right;
+    v = (rolled + right) / 2 / dt;
     if (begun)
-      wmr_filter_predict(&filter, v, (right - left) / plan.motors.track_width / dt, NAN, dt,
+      wmr_filter_predict(&filter, v, (right - rolled) / plan.motors.track_width / dt, NAN, dt,
                          noise, WMR_GATE_1);
   }
 
@@ -45,9 +43,12 @@ class Pilot {
     seen.later = 0.001f * (float)later, seen.inside = inside(seen.x, seen.y);
     if (later > 0 || memory.silence > 1) last = pvt.time;
     const float sigma = fmax(pvt.error, 0.01f);
-    if (!pvt.quality || later <= 0 || !(fabs(heading) < 4 && fabs(seen.x) < 1e6f)) return;
+    const bool good = wmr_rank(pvt.quality) >= wmr_rank(plan.rules.least) &&
+                      pvt.error <= plan.rules.largest_error;
+    if (!good || later <= 0 || !(fabs(heading) < 4 && fabs(seen.x) < 1e6f)) return;
     if (!begun) {
-      const wmr_pose pose = {seen.x, seen.y, heading};
+      wmr_pose pose = {seen.x, seen.y, heading};
+      wmr_shift(&pose, -ahead, -left);
       filter = wmr_filter_start(pose, sigma, compass, 0.01f, 0.02f), begun = true;
     } else {
       // The compass errs by the same all the time: many readings say little more than one.
@@ -55,6 +56,7 @@ class Pilot {
       meanwhile();
       refused = use(sigma) ? 0 : refused + 1;
       if (refused >= PATIENT) wmr_filter_doubt(&filter, 4);  // it may be the filter that errs
+      if (refused && wmr_filter_is_lost(&filter)) begun = false;  // the next fix begins anew
     }
     seen.fresh = !refused;
     seen.x = filter.state[0], seen.y = filter.state[1], seen.heading = filter.state[2];
@@ -76,7 +78,7 @@ class Pilot {
 
   // The antenna is where the fix was `delay` ago.
   bool use(float sigma) {
-    return wmr_filter_position(&filter, seen.x, seen.y, sigma, -v * delay, 0, WMR_GATE_2);
+    return wmr_filter_position(&filter, seen.x, seen.y, sigma, ahead - v * delay, left, WMR_GATE_2);
   }
 
   int inside(float x, float y) const {

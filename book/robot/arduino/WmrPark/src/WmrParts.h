@@ -148,7 +148,7 @@ class Wheel {
   float rolled() {  // m since the last call
     int32_t now;
     ATOMIC_BLOCK(ATOMIC_RESTORESTATE) { now = count; }
-    const int32_t more = now - before;
+    const int32_t more = (int32_t)((uint32_t)now - (uint32_t)before);
     before = now;
     return s.count_m * (float)more;
   }
@@ -159,7 +159,7 @@ class Wheel {
     ATOMIC_BLOCK(ATOMIC_RESTORESTATE) { now = count; }
     const float reach = s.acceleration * dt, lacking = 0.1f;
     speed += constrain(told - speed, -reach, reach);
-    lack += speed * dt - s.count_m * (float)(now - counted);
+    lack += speed * dt - s.count_m * (float)(int32_t)((uint32_t)now - (uint32_t)counted);
     counted = now;
     if (speed == 0 && told == 0) lack = 0;  // it rests where it is
     lack = constrain(lack, -lacking, lacking);

@@ -10,12 +10,14 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import Any
 
 import wmrlib as wmr
 import wmrrobot as wr
 from wmrlib.elementary import sinc
 from wmrrobot import estimation
+from wmrrobot.monitor import rank
 from wmrrobot.sensing import antenna
 
 QUALITY = {0: 1, 1: 2, 2: 4}  # of a NavSatStatus, as NMEA says it
@@ -121,7 +123,8 @@ class Sensors:
 
     def __init__(self, given: Mapping[str, Any]) -> None:
         self.given, self.start = given, point(given["start"])
-        self.noise = estimation.Noise(track_width=given["track_width"])
+        fastest = min(given["max_speed"], estimation.Noise().max_speed)
+        self.noise = estimation.Noise(track_width=given["track_width"], max_speed=fastest)
         self.odom = self.fixed = self.gyro = self.last_position = None
         self.fixes: deque = deque(maxlen=HEADINGS)
         self.headings: deque = deque(maxlen=HEADINGS)
@@ -174,7 +177,8 @@ class Sensors:
             stamp, gyro = self.gyro or (None, math.nan)
             if stamp and abs(_between(self.odom.header.stamp, stamp)) > self.given["patience"]:
                 gyro = math.nan  # its sensor fell silent: the wheels alone count
-            self.estimate = estimation.predict(self.estimate, v, omega, gyro, past, self.noise)
+            with suppress(ValueError):  # faster than a wheel can be: the drive sees it too
+                self.estimate = estimation.predict(self.estimate, v, omega, gyro, past, self.noise)
 
     def _heading(self, stamp: Any) -> float:
         """The heading measured at the time of a fix; NaN without one close to it."""
@@ -201,15 +205,17 @@ class Sensors:
             return self._filtered(readings, x, y)
         if self.estimate:  # a fix with the same bits goes on as it is: the drive watches for that
             readings = readings._replace(heading=self.estimate.pose.heading)
-        east, north = antenna(0.0, 0.0, readings.heading, *self.given["antenna"])
-        return readings._replace(x=x - east, y=y - north, inside=self.inside(x, y))
+        ahead, left = self.given["antenna"]
+        inside = self.inside(x, y)
+        return readings._replace(x=x, y=y, antenna_ahead=ahead, antenna_left=left, inside=inside)
 
     def _filtered(self, readings: wr.Seen, x: float, y: float) -> wr.Seen:
         """The filter's pose in place of the fix; no fix if the filter refuses it."""
         given, arm = self.given, self.given["antenna"]
         sigma, heading = readings.error or given["largest_error"], readings.heading
         readings = readings._replace(x=x, y=y, inside=self.inside(x, y))
-        usable = readings.later > 0.0 and readings.quality and sigma <= given["largest_error"]
+        good = rank(readings.quality) >= rank(given["least"])
+        usable = readings.later > 0.0 and good and sigma <= given["largest_error"]
         if not (usable and 0.0 <= readings.age <= given["oldest_fix"] and math.isfinite(x + y)):
             return readings  # the drive says why
         if self.estimate is None:
@@ -229,6 +235,9 @@ class Sensors:
         self.refused = self.refused + 1 if refused else 0
         if self.refused >= PATIENT:  # it may be the filter that is wrong
             self.estimate = estimation.doubt(self.estimate, 4.0)
+        if refused and self.estimate.lost:  # the next fix begins anew
+            self.estimate = None
+            return readings._replace(fresh=0)
         if given["two_antennas"] and math.isfinite(heading):
             self.estimate = estimation.use_heading(self.estimate, heading, given["compass_sigma"])
         pose = self.estimate.pose

@@ -1,26 +1,26 @@
 // Park: drives from one GPS point to another and parks there, facing as it is told.
-// The numbers of your robot: save my_robot_arduino.h of the page "My robot" beside this file.
+// The numbers of your robot: save my_robot.h of the page "My robot" beside this file.
 // Wiring and bench test: README.md of the library. SPDX-License-Identifier: BSD-3-Clause
 #include <WmrPark.h>
 #include <avr/sleep.h>
 #include <avr/wdt.h>
 
-#include "my_robot_arduino.h"
+#include "my_robot.h"
 
 const bool BENCH = false; // true: the bench test, wheels in the air
 
 // pins: the emergency stop, closed to ground; the motors' relay; the battery, by a divider
 const uint8_t STOP_PIN = 12, POWER_PIN = A0, BATTERY_PIN = A1;
 const float DIVIDER = 4, BATTERY_LOW = 10.5f; // the pin has a quarter of the volts
-const float FULL_SPEED = 1.25f * MAX_SPEED;   // m/s at full PWM
+const float FULL_SPEED = 1.25f * MY_MAX_SPEED; // m/s at full PWM
 const float COUNT_M = 0.001f;                 // m from one change of encoder pin A to the next
 const float FENCE = 15;                       // m round the rectangle of start and goal
 const float TICK = 78 * 1024L / 16e6f;        // s of the wheels' loop
-const uint32_t PERIOD_US = (uint32_t)(1e6f * PERIOD);
+const uint32_t PERIOD_US = (uint32_t)(1e6f * MY_PERIOD);
 
 //          pins: PWM, back, encoder A and B
-Wheel left({9, 8, 2, 4, COUNT_M, FULL_SPEED, ACCELERATION, 2});
-Wheel right({10, 11, 3, 7, COUNT_M, FULL_SPEED, ACCELERATION, 2});
+Wheel left({9, 8, 2, 4, COUNT_M, FULL_SPEED, MY_ACCELERATION, 2});
+Wheel right({10, 11, 3, 7, COUNT_M, FULL_SPEED, MY_ACCELERATION, 2});
 Compass compass;
 Ublox ublox;
 Pilot pilot;
@@ -52,26 +52,19 @@ void setup() {
   pinMode(STOP_PIN, INPUT_PULLUP), pinMode(POWER_PIN, OUTPUT);
   left.begin(left_changed), right.begin(right_changed);
   Serial.begin(38400);
-  while (PERIOD < 0.019f || PERIOD > 0.201f) // the watchdog's, and a counter's, bounds
-    wdt_disable(), Serial.println(F("PERIOD: 0.02 to 0.2 s")), delay(1000);
+  while (MY_PERIOD < 0.019f || MY_PERIOD > 0.201f) // the watchdog's, and a counter's, bounds
+    wdt_disable(), Serial.println(F("MY_PERIOD: 0.02 to 0.2 s")), delay(1000);
   compass.iron_x = 0, compass.iron_y = 0; // of the bench test
   compass.declination = 0.087f;           // of your place and year
   compass.begin();
 
-  pilot.lat = START_LAT_E7, pilot.lon = START_LON_E7;
-  pilot.goal(GOAL_LAT_E7, GOAL_LON_E7, GOAL_HEADING);
-  wmr_plan &plan = pilot.plan;
-  plan.gains = {K_RHO, K_ALPHA, H, V_MAX};
-  plan.motors = {TRACK_WIDTH, MAX_SPEED, MIN_SPEED, ACCELERATION, 0.1f, 0, COUNT_M};
-  plan.end = {TURN_TOLERANCE, TURN_GAIN, TURN_MIN, TURN_MAX, 2, TURN_SETTLE};
-  plan.rules = WMR_USUAL_RULES;
-  plan.rules.arrival_radius = RADIUS_IN, plan.rules.battery = BATTERY_LOW;
-  plan.rules.oldest = OLDEST_FIX, plan.rules.patience = PATIENCE;
-  plan.rules.largest_error = LARGEST_ERROR, plan.rules.farthest = FARTHEST;
-  plan.rules.longest_period = LONGEST_PERIOD, plan.rules.longest_drive = LONGEST_DRIVE;
-  plan.rules.jump = JUMP, plan.rules.course = COURSE;
-  pilot.noise = {0.02f, 0.01f, 0.001f, 0.001f, TRACK_WIDTH};
-  pilot.delay = DELAY, pilot.compass = COMPASS_DEG * DEG_TO_RAD, pilot.fence = FENCE;
+  pilot.start(MY_START_E7);
+  my_plan(&pilot.plan);
+  pilot.plan.motors.lag = 0.1f, pilot.plan.motors.dead_band = 0; // their loops see to that
+  pilot.plan.rules.battery = BATTERY_LOW;
+  pilot.noise = {0.02f, 0.01f, 0.001f, 0.001f, MY_TRACK_WIDTH, MY_MAX_SPEED};
+  pilot.delay = MY_DELAY, pilot.compass = MY_COMPASS_DEG * (float)DEG_TO_RAD;
+  pilot.ahead = MY_ANTENNA_AHEAD, pilot.left = MY_ANTENNA_LEFT, pilot.fence = FENCE;
   pilot.meanwhile = receive;
 
   TCCR2A = 1 << WGM21, OCR2A = 77; // a tick is 78 * 1024 cycles
@@ -127,7 +120,7 @@ void bench() {
   static uint8_t phase = 0, periods = 0;
   static wmr_wheels told = {0.2f, 0, WMR_OK};
   static float rolled[2] = {0, 0};
-  const uint8_t second = (uint8_t)(1 / PERIOD);
+  const uint8_t second = (uint8_t)(1 / MY_PERIOD);
   if (periods == 2 * second) rolled[0] = rolled[1] = 0; // by then it has sped up
   rolled[0] += left.rolled(), rolled[1] += right.rolled();
   left.tell(told.left), right.tell(told.right);
@@ -146,7 +139,7 @@ void bench() {
   const int8_t *at = POSES[phase - 3];
   const wmr_pose pose = {0.1f * at[0], 0.1f * at[1], at[2] * (float)DEG_TO_RAD}, goal = {0, 0, 0};
   const wmr_twist twist = wmr_law(wmr_polar_error(pose, goal), pilot.plan.gains);
-  told = wmr_limited_wheels(twist, TRACK_WIDTH, MAX_SPEED);
+  told = wmr_limited_wheels(twist, MY_TRACK_WIDTH, MY_MAX_SPEED);
 }
 
 void say(const int32_t *numbers, uint8_t count) {
