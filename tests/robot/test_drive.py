@@ -10,12 +10,12 @@ import drive_faults as faults
 import numpy as np
 import pytest
 import world
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
 import wmrrobot as wr
-from wmrrobot import monitor
+from wmrrobot import monitor, sensing
 from wmrrobot.drive import TABLE
 
 CASES = {case.name: case for case in faults.CASES}
@@ -88,17 +88,25 @@ def test_c_decides_the_same_in_each_period(ran, name):
         assert (drives[0].state, drives[0].reason) == decided
 
 
-def goes(drive, pose, seconds, until="", **fields):
-    """Let a robot with perfect wheels drive for a time, or until a state."""
+def goes(drive, pose, seconds, until="", off=(0.0, 0.0), width=0.5, **fields):
+    """Let a robot with perfect wheels drive for a time, or until a state, its fixes `off`."""
     states, left, right = [], 0.0, 0.0
     for _ in range(round(seconds / 0.05)):
         if drive.state == until:
             break
-        seen = wr.Seen(0.05, 0.05 * left, 0.05 * right, fresh=1, **pose._asdict(), **fields)
+        fix = pose._replace(x=pose.x + off[0], y=pose.y + off[1])
+        seen = wr.Seen(0.05, 0.05 * left, 0.05 * right, fresh=1, **fix._asdict(), **fields)
         left, right = drive.step(seen)
-        pose = wmr.advance(pose, *wmr.wheels_to_twist(left, right, 0.5), 0.05)
+        pose = wmr.advance(pose, *wmr.wheels_to_twist(left, right, width), 0.05)
         states.append(drive.state)
     return pose, states
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [2, 3, 4, 5])
+def test_a_fault_is_survived_whatever_the_sensors_noise(seed):
+    ran = {case.name: faults.run(case, seed=seed) for case in faults.CASES}
+    assert [name for name in ran if not faults.holds(CASES[name], ran[name])] == []
 
 
 ANYWHERE = (-99.0, -99.0, 99.0, 99.0)
@@ -199,6 +207,45 @@ def test_the_least_speed_keeps_the_path_of_the_law(distance, heading, least):
     hurried = wmr.wheels_to_twist(*speeds, 0.5)
     assert hurried == pytest.approx([max(1.0, least * math.cos(error.alpha) / v) * speed
                                      for speed in (v, omega)])  # fmt: skip
+
+
+anywhere = st.builds(wmr.Pose, *[st.floats(-50.0, 50.0)] * 2, st.floats(-3.1, 3.1))
+arms = st.floats(-2.0, 2.0)
+
+
+@given(anywhere, arms, arms)
+def test_wherever_the_antenna_is_the_robot_is_where_its_wheels_are(pose, ahead, left):
+    x, y = sensing.antenna(*pose, ahead, left)
+    arm = {"antenna_ahead": ahead, "antenna_left": left}
+    m = monitor.Memory()
+    monitor.bring_up(m, wr.Seen(0.05, 0.0, 0.0, x=x, y=y, heading=pose.heading, **arm))
+    assert (m.fix.x, m.fix.y, m.fix.heading) == pytest.approx(tuple(pose), abs=1e-9)
+
+
+@given(st.sampled_from(range(-3, 9)), st.sampled_from([1, 2, 3, 5, 4]))
+def test_a_fix_below_the_least_quality_is_refused(quality, least):
+    """From worst to best: none, GPS, differential, PPS, RTK float, which is 5, and fixed."""
+    order = [1, 2, 3, 5, 4]
+    seen = wr.Seen(0.05, 0.0, 0.0, quality=quality)
+    refused = monitor.refusal_of(monitor.Memory(), seen, wr.Rules(least=least))
+    good = quality in order and order.index(quality) >= order.index(least)
+    assert (refused == monitor.NONE) == good
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.floats(0.15, 3.0), st.floats(-3.1, 3.1), st.floats(0.5, 4.0), st.floats(0.5, 3.0))
+def test_with_rtk_a_wrong_fix_that_lasts_stops_the_robot(off, towards, begin, wait):
+    """By the rules of its sheet: it neither believes the fix in the end nor waits for ever."""
+    told = wr.sheet(wr.Robot())
+    goal, rules = wmr.Pose(told.x, told.y, told.heading), told.rules._replace(longest_wait=wait)
+    drive = wr.Drive(goal, told.gains, told.wheels, told.turn, rules)
+    pose = wmr.Pose(0.0, 0.0, math.atan2(told.y, told.x))
+    pose, _ = goes(drive, pose, 1.0 + begin, width=0.4)
+    assert drive.state == "drive"
+    east, north = off * math.cos(towards), off * math.sin(towards)
+    _, states = goes(drive, pose, rules.patience + wait + 1.0, "stopped", (east, north), width=0.4)
+    assert (drive.state, drive.reason) == ("stopped", "waited too long")
+    assert 0.05 * states.count("wait") == pytest.approx(wait, abs=0.11)
 
 
 @given(st.floats(-0.05, 0.05))

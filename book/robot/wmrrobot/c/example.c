@@ -132,10 +132,10 @@ int main(void) {
   }
   set_wheels(none, 0);
   cut_power(); /* parked, or out of time */
+  printf("%d %.9f %.9f %.9f\n", count, (double)memory.pose.x, (double)memory.pose.y,
+         (double)memory.pose.heading);
 #ifdef PLANT
   plant_end(&plan, memory.state);
 #endif
-  printf("%d %.9f %.9f %.9f\n", count, (double)memory.pose.x, (double)memory.pose.y,
-         (double)memory.pose.heading);
   return 0;
 }
