@@ -248,6 +248,23 @@ def test_with_rtk_a_wrong_fix_that_lasts_stops_the_robot(off, towards, begin, wa
     assert 0.05 * states.count("wait") == pytest.approx(wait, abs=0.11)
 
 
+@settings(max_examples=10, deadline=None)
+@given(st.floats(0.0, 0.2), st.booleans())
+def test_with_rtk_a_wheel_may_slip_by_a_fifth(slip, left):
+    """A soft tyre is no wrong heading: the rules of the sheet compare short legs."""
+    numbers, robot = wr.sheet(wr.Robot()), wr.Robot()
+    goal = wmr.Pose(numbers.x, numbers.y, numbers.heading)
+    drive = wr.Drive(goal, numbers.gains, numbers.wheels, numbers.turn, numbers.rules)
+    pose, speeds = wmr.Pose(0.0, 0.0, math.atan2(numbers.y, numbers.x)), (0.0, 0.0)
+    grip = (1.0 - slip, 1.0) if left else (1.0, 1.0 - slip)
+    for _ in range(600):
+        rolled = [0.05 * speed for speed in speeds]
+        speeds = drive.step(wr.Seen(0.05, *rolled, fresh=1, **pose._asdict()))
+        true = [share * speed for share, speed in zip(grip, speeds, strict=True)]
+        pose = wmr.advance(pose, *wmr.wheels_to_twist(*true, robot.track_width), 0.05)
+    assert drive.state == "drive"
+
+
 @given(st.floats(-0.05, 0.05))
 def test_what_is_rolled_counts_backwards_too(rolled):
     m = monitor.Memory()

@@ -51,7 +51,7 @@ class Estimate(NamedTuple):
 
     @property
     def lost(self) -> bool:
-        """Whether the place is uncertain by more than 100 m: start again from the next fix."""
+        """Whether the place is uncertain by more than 100 m, so that the next fix must start it."""
         area = self.covariance[0, 0] + self.covariance[1, 1]
         return not (np.isfinite(self.state).all() and 0.0 <= area <= DOUBTED**2)
 

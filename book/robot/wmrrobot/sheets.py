@@ -28,6 +28,7 @@ COARSE = 0.35  # rad: a last turn that is coarser is none
 MARGIN = 0.2  # s: a fix may be so much older than usual
 STEADY = 4.0  # sigmas: two fixes of a sound receiver differ by less
 CLOSE = 0.1  # m: no jump that is smaller is refused
+LEG = 1.0  # m: over less, a course says little; over more, a soft tyre turns the wheels' heading
 FAR = 1000.0  # m
 RUNS, SEED, SHARE = 400, 14, 0.95
 GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0  # spreads the first headings evenly
@@ -211,7 +212,7 @@ def sheet(robot: Robot) -> Sheet:
         largest_error=max(radius, 3 * robot.sigma),
         least=int(robot.quality),
         jump=jump,
-        course=max(usual.course, 3 * jump),  # over less, errors that are allowed turn a leg
+        course=max(LEG, 3 * jump),  # over less, errors that are allowed turn a leg
         longest_period=max(usual.longest_period, 1.5 * robot.period),
         longest_drive=max(usual.longest_drive, duration),
         farthest=max(usual.farthest, 2 * apart),

@@ -45,8 +45,8 @@ QUALITIES = (
     "RTK fixed",
     "RTK float or fixed",
 )
-NUMBERS = ("spare", "brake", "nearest", "moves", "coarse", "margin", "steady", "close", "far")
-NUMBERS += ("golden", "compass", "runs", "seed", "share")
+NUMBERS = ("spare", "brake", "nearest", "moves", "coarse", "margin", "steady", "close", "leg")
+NUMBERS += ("far", "golden", "compass", "runs", "seed", "share")
 
 
 class MyRobot(Panel):

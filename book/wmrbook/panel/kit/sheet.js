@@ -94,7 +94,7 @@ export function sheetOf(robot, rules) {
         settle: late + Math.max(minRate, gain * tolerance) / braking },
       duration, rules: { ...usual, arrival_radius: radius, oldest,
         patience: oldest + 2 * Math.max(robot.fix_period, robot.period),
-        largest_error: Math.max(radius, 3 * robot.sigma), least: robot.quality, jump, course: Math.max(usual.course, 3 * jump),
+        largest_error: Math.max(radius, 3 * robot.sigma), least: robot.quality, jump, course: Math.max(rules.leg, 3 * jump),
         longest_period: Math.max(usual.longest_period, 1.5 * robot.period),
         longest_drive: Math.max(usual.longest_drive, duration),
         farthest: Math.max(usual.farthest, 2 * distance) } };
