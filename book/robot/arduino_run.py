@@ -21,6 +21,7 @@ from wmrlib.body import follow
 from wmrlib.motion import arc_step
 from wmrrobot import monitor
 from wmrrobot.drive import REASONS
+from wmrrobot.sensing import antenna
 from wmrrobot.sheets import RECEIVERS, Robot, certificate, sheet
 
 STEP = 0.005  # s, of the truth
@@ -87,7 +88,8 @@ class Lawn:
     def __init__(self, robot: Robot, start: wmr.Pose, seed: int) -> None:
         self.robot, self.pose, self.rng = robot, tuple(start), np.random.default_rng(seed)
         self.origin = wmr.GeoPoint(lat=robot.start_lat, lon=robot.start_lon)
-        self.past, self.speeds = [self.pose[:2]], [0.0, 0.0]
+        self.arm = robot.antenna_ahead, robot.antenna_left
+        self.past, self.speeds = [antenna(*self.pose, *self.arm)], [0.0, 0.0]
         self.scale = 1.0 + self.rng.normal(0.0, 0.005)  # of the wheels, unknown to the sketch
         self.off = math.radians(robot.compass) * self.rng.normal()
         self.error = self.rng.normal(0.0, robot.sigma, 2)
@@ -101,7 +103,7 @@ class Lawn:
             rolled.append(mean * STEP)
         v, omega = wmr.wheels_to_twist(*rolled, self.robot.track_width)
         self.pose = arc_step(*self.pose, v * self.scale, omega * self.scale, 1.0)
-        self.past.append(self.pose[:2])
+        self.past.append(antenna(*self.pose, *self.arm))
         return rolled[0], rolled[1]
 
     def fix(self, now: float) -> bytes:

@@ -54,7 +54,7 @@ def test_it_parks_in_time_and_fits():
     assert ran.untouched >= 64  # bytes of RAM
     told = sheet(NEAR)
     start = wmr.Pose(1.0, -2.0, math.atan2(told.y, told.x) - 1.2)
-    aside = drive(start=start, seed=2)
+    aside = drive(NEAR._replace(antenna_ahead=0.3, antenna_left=-0.1), start, seed=2)
     assert (aside.end, aside.resets) == ("parked", 0)
     assert aside.place < 0.1
 

@@ -234,18 +234,21 @@ FILED = [
 
 @pytest.mark.needs("compiler")
 @pytest.mark.parametrize(("robot", "shaky"), FILED)
-def test_the_c_file_makes_the_steps_that_the_sheet_makes(robot, shaky, tmp_path):
+@pytest.mark.parametrize(("real", "near", "ties"), [("double", 1e-5, 0), ("float", 1e-3, 2)])
+def test_the_c_file_makes_the_steps_that_the_sheet_makes(robot, shaky, real, near, ties, tmp_path):
     """It is compiled with example.c, and reads what a drive by the sheet has read."""
     (tmp_path / "my_robot.h").write_text(files(robot)["my_robot.h"], encoding="utf-8")
     (tmp_path / "board.h").write_text(f"#include <stdlib.h>\n{SCRIPT}", encoding="utf-8")
     options = *INCLUDES, f"-I{tmp_path}", "-DMY_ROBOT", '-DHARDWARE="board.h"'
+    options += f"-DWMR_REAL={real}", "-Wno-double-promotion", "-Wno-float-conversion"
     program = build(printing.C_EXAMPLE, tmp_path, *options)
     rows, speeds, drive = driven(robot, 1, math.radians(shaky))
     assert drive.state == "parked"
     script = "\n".join(" ".join(map(repr, row)) for row in [*rows, rows[-1]])
     printed = subprocess.run([program], input=script, capture_output=True, text=True, check=True)
     steps = re.findall(r"^(\S+) (\S+) 1$", printed.stdout, re.MULTILINE)
-    assert np.array(steps, dtype=float) == pytest.approx(np.array(speeds), abs=1e-5)
+    apart = np.abs(np.array(steps, dtype=float) - speeds).max(axis=1)
+    assert (apart > near).sum() <= ties  # of a silence and the patience, which a float rounds
     assert printed.stdout.splitlines()[-1].startswith(
         f"{len(rows)} "
     )  # it parked with the last one
