@@ -66,6 +66,7 @@ def test_elements_within_an_element_are_not_its_text(read):
 
 STRAYS = (
     "newest first",
+    "newest first, one twice",
     "unset",
     "null island",
     "far",
@@ -93,8 +94,8 @@ def spoilt(rows, kind, k, size):
         "same time": (second, lat, lon),
         "late": (second - size * 86.4, lat, lon),
     }
-    if kind == "newest first":
-        return rows[::-1]
+    if kind.startswith("newest first"):
+        return [*rows[: k + 1], *rows[k + ("twice" not in kind) :]][::-1]
     if kind == "unset":  # its t is not known, but its place is
         return [(-1.4e9 - size * 86400 + row[0], *row[1:]) for row in rows[:k]] + rows[k:]
     if kind in ("date", "date back"):
@@ -126,6 +127,91 @@ def test_what_does_not_fit_its_neighbours_spoils_nothing(read, kind, n, k, size,
     expected = np.sqrt(np.mean(np.var(clean * [111195, 111195 * math.cos(0.5807)], axis=0)))
     assert at_rest(Robot(), track).sigma == pytest.approx(expected, rel=1e-3)
     assert along(Robot(), track).start_lat == rows[0][1]
+
+
+def walk(n, speed=1.4):
+    """Fixes of a walk to the north, one a second: second, latitude, longitude."""
+    return [(k, 33.27 + k * speed / 111195, 44.37) for k in range(n)]
+
+
+def written(kind, rows):
+    """The rows as GPX or as a table."""
+    if kind == "CSV":
+        return "\n".join(["time,lat,lon", *(f"{iso(s)},{lat},{lon}" for s, lat, lon in rows), ""])
+    return gpx(trk(*(f'<trkpt lat="{lat}" lon="{lon}"><time>{iso(second)}</time></trkpt>'
+                     for second, lat, lon in rows)))  # fmt: skip
+
+
+@few
+@given(
+    st.sampled_from(["CSV", "GPX"]), st.sampled_from([rest, walk]), st.integers(5, 200),
+    st.integers(0, 59), st.booleans(),
+)  # fmt: skip
+def test_a_clock_that_shows_minutes_or_stands_costs_no_position(read, kind, log, n, begin, stands):
+    rows = log(n)
+    minutes = [0 if stands else (begin + k) // 60 for k in range(n)]
+    assume(4 * len({*minutes}) <= n)
+    pairs = zip(minutes, rows, strict=True)
+    track = read(written(kind, [(60 * minute, *row[1:]) for minute, row in pairs]))
+    assert track.points.lat.tolist() == [lat for _, lat, _ in rows]
+    first = [minute not in minutes[:k] for k, minute in enumerate(minutes)]
+    np.testing.assert_array_equal(track.t, np.where(first, np.multiply(minutes, 60.0), math.nan))
+    assert [*remarks(track)] == ["with the time of the one before, which t leaves out"]
+
+
+@few
+@given(st.integers(2, 40), st.lists(st.tuples(st.integers(0, 39), st.integers(0, 39)), max_size=3))
+def test_a_position_is_read_once_though_another_segment_has_it_too(read, n, others):
+    """As of a receiver that exports its active log and the same drive, saved."""
+    parts = [range(n), *(range(min(ends), min(n, max(ends))) for ends in others)]
+    segments = [trk(*(f'<trkpt lat="{33 + k * 1e-5:.5f}" lon="44.5"><time>{iso(k)}</time></trkpt>'
+                      for k in part)) for part in parts]  # fmt: skip
+    track = read(gpx("".join(segments)))
+    assert track.t.tolist() == [*range(n)]
+    again = sum(map(len, parts[1:]))
+    assert sum(count for count, _ in remarks(track).values()) == again
+
+
+OFFSETS = st.tuples(st.floats(-30, 30), st.floats(0.01, 0.99), st.booleans(), st.booleans())
+
+
+@few
+@given(st.sampled_from(["gpsd", "device", "ArduPilot"]), st.sampled_from([rest, walk]), OFFSETS)
+def test_of_several_receivers_with_names_one_is_used(read, kind, log, offsets):
+    """The one that is trusted more, or else the one with more positions, or the first."""
+    metres, later, better, first = offsets
+    north = metres / 111195
+    lines = []
+    for second, lat, lon in log(30):
+        pair = [(second, lat, "A", 3 if better else 1),
+                (second + later, lat + north, "B", 1)]  # fmt: skip
+        for t, y, name, quality in pair if first or not better else pair[::-1]:
+            if kind == "gpsd":
+                lines.append(json.dumps(
+                    {"class": "TPV", "mode": 3, "status": quality, "time": iso(t), "lat": y,
+                     "lon": lon, "device": name}))  # fmt: skip
+            elif kind == "device":
+                lines.append(f"{iso(t)},{y},{lon},{name},{'RTK' if quality == 3 else 'SPS'}")
+            else:
+                lines.append(f"{1e6 * (t + 9)},{'AB'.index(name)},{2 * quality},7,7,{y},{lon}")
+    head = {"device": ["time,lat,lon,Device ID,quality"],
+            "ArduPilot": ["TimeUS,I,Status,GMS,GWk,Lat,Lng"]}.get(kind, [])  # fmt: skip
+    track = read([*head, *lines, ""])
+    assert track.points.lat.tolist() == [lat for _, lat, _ in log(30)]
+    np.testing.assert_allclose(track.t, np.arange(30.0), atol=1e-6)
+    assert [*track.report.skipped] == ["position of another receiver"]
+
+
+@few
+@given(st.sampled_from([rest, walk]), st.integers(20, 60), st.floats(5, 30), st.floats(0.01, 0.99))
+def test_of_two_receivers_without_names_the_report_tells(read, log, n, metres, later):
+    """At rest, and on a walk: there is no telling whose a position is."""
+    note = "in a file that alternates between two receivers, perhaps"
+    rows = log(n)
+    second = [(s + later, lat, lon + metres / 92960) for s, lat, lon in rows]
+    both = [row for pair in zip(rows, second, strict=True) for row in pair]
+    assert note in remarks(read(written("GPX", both)))
+    assert remarks(read(written("GPX", rows))) == {}
 
 
 @few
@@ -215,6 +301,46 @@ def test_the_best_column_can_be_read_tells_most_and_comes_with_its_twin(read):
     assert track.t.tolist() == [0.25 * k for k in range(8)]
     track = read("lat,gps_lat,gps_lon,latitude,longitude,lon\n1,2,3,4,5,6\n")
     assert [x.tolist() for x in (track.points.lat, track.points.lon)] == [[1.0], [6.0]]
+
+
+SECONDS = ["s", "sec", "secs", "second", "seconds"]
+UNITS = {part + word: 10**power for part, power in
+         {"": 0, "m": 3, "milli": 3, "u": 6, "micro": 6, "n": 9, "nano": 9}.items()
+         for word in SECONDS}  # fmt: skip
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_a_time_is_read_in_any_unit_that_its_column_names(read, unit):
+    for name in (f"time ({unit})", f"t_{unit}", f"elapsed[{unit}]", f"timestamp_{unit.upper()}"):
+        rows = [f"{round(k * UNITS[unit] / 4)},1,2" for k in (0, 4, 8)]
+        track = read([f"{name},lat,lon", *rows, ""])
+        assert (track.t.tolist(), remarks(track)) == ([0.0, 1.0, 2.0], {})
+    track = read(
+        f"time_{unit},date time,lat,lon\n0,{iso(0)},1,2\n{UNITS[unit] // 2},{iso(0)},1,2\n"
+    )
+    assert track.t.tolist() == ([0.0, 0.5] if UNITS[unit] > 1 else [0.0])
+
+
+MEASURED = ["gnssFixOK", "has_fix", "gps_fix_valid", "is_valid", "nav_status", "status.status"]
+MEASURED += ["field.status.status", "/gps/fix/status/status"]
+
+
+@pytest.mark.parametrize("name", MEASURED)
+def test_a_column_that_says_whether_there_is_a_fix_is_known(read, name):
+    good, bad = ("0", "-1") if "status.status" in name or "/" in name else ("1", "V")
+    head = "field.latitude,/gps/fix/longitude"
+    track = read(f"{head},{name}\n33,44,{good}\n34,45,{bad}\n")
+    assert track.points.lat.tolist() == [33.0]
+    assert dict(track.report.skipped) == {"row without a measured fix": (1, 3)}
+
+
+def test_ns_counts_satellites_where_it_holds_numbers(read):
+    """As in the tables of RTKLIB, which have no ew."""
+    head = "%  GPST,latitude(deg),longitude(deg),height(m),Q,ns"
+    track = read(f"{head}\n2026/03/01 12:00:00.000,-33.5,44.5,30,1,9\n")
+    assert (track.points.lat[0], track.points.lon[0]) == (-33.5, 44.5)
+    with pytest.raises(ValueError, match="without a readable hemisphere"):
+        read("lat,lon,N/S\n33.5,44.5,1\n")
 
 
 APPS = {  # header, row
@@ -406,8 +532,12 @@ def test_json_of_others(read):
         "point beside the lines": (1, 2),
         "feature that is neither a line nor a point": (1, 3),
     }
-    points = [feature("Point", [2, 1], time=iso(k)) for k in range(3)]
-    assert read(collection(*points)).t.tolist() == [0, 1, 2]
+    for name in ("time", "timestamp", "datetime"):
+        points = [feature("Point", [2, 1], **{name: iso(k)}) for k in range(3)]
+        assert read(collection(*points)).t.tolist() == [0, 1, 2]
+    times = {"times": [iso(0), iso(1)]}  # as togeojson has them today
+    line = feature("LineString", [[2, 1], [2, 1.00001]], coordinateProperties=times)
+    assert read(collection(line)).t.tolist() == [0, 1]
     lines = feature("MultiLineString", [[[2, 1]], [["x", 1], 3, [2, 1.5]]])
     assert read(json.dumps(lines)).points.lat.tolist() == [1.0, 1.5]
     tpv = {"class": "TPV", "mode": 3, "status": 3, "lat": 1.0, "lon": 2.0, "speed": 1.5}

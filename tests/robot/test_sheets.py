@@ -156,6 +156,9 @@ def test_a_track_gives_the_way_and_the_scatter(tmp_path):
         assert getattr(robot, f"{name}_lat") == track.points.lat[k]
         assert getattr(robot, f"{name}_lon") == track.points.lon[k]
     assert robot._replace(**{name: getattr(Robot(), name) for name in robot._fields[:4]}) == Robot()
+    wmr.write_gpx(path, base)
+    with pytest.raises(ValueError, match=r"track = <Track: 1 position.* at least 2 positions are"):
+        at_rest(Robot(), wmr.read_track(path))
 
 
 COUNT, LAG = 0.0005, 0.1  # m a count, as in example.c; s that a simulated wheel lags

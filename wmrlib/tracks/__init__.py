@@ -91,9 +91,11 @@ def read_track(path: str | os.PathLike) -> Track:
     MAVLink's fix_type. Of several columns the best is used, and the report names the others.
 
     Where times do not increase, the longest run that does is used, and in a step of whole days
-    while the clock goes on the date was wrong. (0, 0) far from all others is not used, nor is a
-    place that no vehicle reaches in the time, unless more than a quarter are such. All of this is
-    within a segment of GPX or GeoJSON, and in the report.
+    while the clock goes on the date was wrong. Of a clock that shows only minutes, or stands, t
+    has the first of each time. (0, 0) far from all others is not used, nor is a place that no
+    vehicle reaches in the time, unless more than a quarter are such. All of this is within a
+    segment of GPX or GeoJSON, and in the report. Of several receivers that a file names one is
+    used, by its fixes and their number.
 
     Parameters
     ----------

@@ -31,7 +31,7 @@ class Reported(NamedTuple):
 
 
 UNREPORTED = Reported()
-_WIDTH = 5 + len(Reported._fields)  # of a row: its line, segment, lat, lon, time and Reported
+_WIDTH = 6 + len(Reported._fields)  # line, segment, lat, lon, time, Reported and receiver
 
 
 def trust(quality: float) -> int:
@@ -81,6 +81,7 @@ class Fixes:
 
     def __init__(self, place: str = "line") -> None:
         self.table, self.segment = array("d"), 0  # in the next segment times may be earlier
+        self.receiver, self._receivers = "", dict[str, int]()  # as the file names them
         self.skipped, self.noted = Tally(), Tally()
         self.skip, self.place = self.skipped.count, place
 
@@ -101,7 +102,8 @@ class Fixes:
         if time is None:
             self.noted.count(doubt, line)
         time = math.nan if time is None else time
-        self.table.extend((line, self.segment, lat, lon, time, *reported))
+        receiver = self._receivers.setdefault(self.receiver, len(self._receivers))
+        self.table.extend((line, self.segment, lat, lon, time, *reported, receiver))
 
     def __len__(self) -> int:
         return len(self.table) // _WIDTH
@@ -113,8 +115,16 @@ class Fixes:
         nowhere = neighbours.null_island(table[:, 2], table[:, 3])
         _count(self.skipped, "position at (0, 0)", table[nowhere])
         table = table[~nowhere]
+        if len(self._receivers) > 1:
+            trusted = [1 + trust(quality) for quality in table[:, 5].tolist()]
+            best = np.bincount(table[:, -1].astype(int), trusted).argmax()
+            _count(self.skipped, "position of another receiver", table[table[:, -1] != best])
+            table = table[table[:, -1] == best]
+        again = neighbours.copies(table[:, 2:5], table[:, 1])
+        _count(self.skipped, "same time and place again", table[again])
+        table = table[~again]
         parts = np.split(table, np.flatnonzero(np.diff(table[:, 1])) + 1)
-        table = np.concatenate([self._settled(part) for part in parts])[:, 2:].T
+        table = np.concatenate([self._settled(part) for part in parts])[:, 2:-1].T
         return table, Report(table.shape[1], self.skipped, self.noted, self.place)
 
     def _settled(self, part: np.ndarray) -> np.ndarray:
@@ -125,6 +135,9 @@ class Fixes:
         part[:, 4], doubts = neighbours.with_its_date_right(part[:, 4])
         for reason, rows in doubts.items():
             _count(self.noted, reason, part[rows])
+        unknown = neighbours.without_seconds(part[:, 4])
+        part[unknown, 4] = math.nan
+        _count(self.noted, "with the time of the one before, which t leaves out", part[unknown])
         time, quality = part[:, 4], part[:, 5].tolist()
         again = neighbours.second_best(time, lambda i: trust(quality[i]))
         unordered = neighbours.late(np.where(again, math.nan, time)) | again
@@ -139,8 +152,11 @@ class Fixes:
         where = "place that no vehicle reaches in the time"
         if few:
             _count(self.skipped, where, part[far])
-            return part[~far]
-        _count(self.noted, f"at a {where}", part[far])  # times in a wrong unit, perhaps
+            part = part[~far]
+        else:
+            _count(self.noted, f"at a {where}", part[far])  # times in a wrong unit, perhaps
+        if neighbours.alternate(part[:, 2], part[:, 3]):
+            _count(self.noted, "in a file that alternates between two receivers, perhaps", part)
         return part
 
 

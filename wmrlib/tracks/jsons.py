@@ -9,6 +9,7 @@ from wmrlib.tracks.fixes import Fixes, Reported, timestamp
 
 _DEPTH = {"Point": 0, "MultiPoint": 1, "LineString": 1, "MultiLineString": 2}  # of its lists
 _STATUS = {1.0: 1.0, 2.0: 2.0, 3.0: 4.0, 4.0: 5.0}  # of gpsd, as quality of GGA
+_TIMES = ("coordTimes", "times", "time", "timestamp", "datetime", "date_time")
 _Line = tuple[int, Any, Any]  # a feature's number, its positions and their times
 _ESTIMATED = {5, 8}  # by dead reckoning alone, and simulated
 
@@ -51,7 +52,8 @@ def _geojson(found: dict[str, Any]) -> Fixes:
             geometry = feature["geometry"] if feature["type"] == "Feature" else feature
             depth, places = _DEPTH[geometry["type"]], geometry["coordinates"]
             properties = feature.get("properties") or {}
-            times = properties.get("coordTimes", properties.get("times", properties.get("time")))
+            properties = {**properties, **(properties.get("coordinateProperties") or {})}
+            times = next((properties[name] for name in _TIMES if name in properties), None)
             if depth < 2:
                 places, times = [places], [times]
             for k, part in enumerate(places):
@@ -98,6 +100,7 @@ def _gpsd(text: TextIO) -> Fixes:
         if mode not in (2, 3) or status in _ESTIMATED:
             fixes.skip("TPV without a fix", line)
             continue
+        fixes.receiver = str(message.get("device", ""))
         speed, track, eph = rest
         time, course = message.get("time"), math.radians(track)
         reported = Reported(_STATUS.get(status, math.nan), speed=speed, course=course, accuracy=eph)

@@ -28,9 +28,32 @@ def null_island(lat: np.ndarray, lon: np.ndarray) -> np.ndarray:
 
 
 def newest_first(time: np.ndarray) -> bool:
-    """Whether all times fall, and they are more than a few."""
+    """Whether the times fall, with hardly an exception, and they are more than a few."""
     steps = np.diff(time[~np.isnan(time)])
-    return steps.size > 3 and bool((steps < 0.0).all())
+    return (steps < 0.0).sum() > max(3, 9 * (steps > 0.0).sum())
+
+
+def without_seconds(time: np.ndarray) -> np.ndarray:
+    """Which positions have the time of the one before, if the clock shows minutes or stands."""
+    timed = np.flatnonzero(~np.isnan(time))
+    steps = np.diff(time[timed])
+    coarse = not (steps % 60.0).any() and 4 * (steps == 0.0).sum() >= max(16, 3 * steps.size)
+    return timed[1:][steps == 0.0] if coarse else timed[:0]
+
+
+def copies(places: np.ndarray, segment: np.ndarray) -> np.ndarray:
+    """Which rows (latitude, longitude, time) an earlier segment has too; without a time, none."""
+    _, first, same = np.unique(places, axis=0, return_index=True, return_inverse=True)
+    return segment != segment[first[same.ravel()]]
+
+
+def alternate(lat: np.ndarray, lon: np.ndarray) -> bool:
+    """Whether positions are near those after the next, but not near the next."""
+    if lat.size < 20:
+        return False
+    parts = [GeoPoint(lat=lat[k:][: lat.size - 2], lon=lon[k:][: lat.size - 2]) for k in range(3)]
+    to_next, to_second = (np.median(haversine_distance(parts[0], part)) for part in parts[1:])
+    return bool(to_next > max(1.0, 2.0 * to_second))
 
 
 def with_its_date_right(time: np.ndarray) -> tuple[np.ndarray, dict[str, np.ndarray]]:

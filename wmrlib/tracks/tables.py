@@ -10,26 +10,31 @@ from typing import NamedTuple, TextIO
 
 from wmrlib.tracks.fixes import KNOT, LONGEST, Fixes, Reported, number, reading, timestamp
 
-_LAT, _LON = "(gps )?lat(itude)?", "(gps )?(lng|long?|longitude)"
+_OF = "((gps|gnss|fix|field|location) )*"  # as ROS and some apps name them
+_LAT, _LON = f"{_OF}lat(itude)?", f"{_OF}(lng|long?|longitude)"
 _SIDE = "(dir|direction|ref|reference|hemi|hemisphere|indicator)"
 _TIME = "((date|up|i)?time|timestamp|i?tow|date|stamp|epoch|unix|ts|utc|clock|millis|elapsed"
 _TIME += "|(milli)?sec(ond)?s?|hours?|datum|(uhr)?zeit|fecha|hora|heure)"
-_UNIT = "( s| sec| seconds| ms| milliseconds| us| ns)?"
+_PARTS = {"": 1.0, "m": 1e3, "milli": 1e3, "u": 1e6, "micro": 1e6, "n": 1e9, "nano": 1e9}
+_SECONDS = ("s", "sec", "secs", "second", "seconds")
+_PER = {part + word: per for part, per in _PARTS.items() for word in _SECONDS}
+_UNIT = f"( ({'|'.join(_PER)}))?"
 _ROLES = {  # of a column, by the words of its name; the first that fits
-    "lat": f"{_LAT}( deg| degrees)?( n s)?( e7)?",
-    "lon": f"{_LON}( deg| degrees)?( e w)?( e7)?",
+    "lat": f"{_LAT}( deg| degrees)?( n s)?( e7| wgs84)?",
+    "lon": f"{_LON}( deg| degrees)?( e w)?( e7| wgs84)?",
     "N/S": f"(n ?s|north south)( indicator)?|{_LAT} {_SIDE}",
     "E/W": f"(e ?w|east west)( indicator)?|{_LON} {_SIDE}",
     "date": "((gps |utc )?date|date (gps|utc))",
     "time": f"((gps |utc )?time|timestamp|date ?time|t)( utc)?{_UNIT}|(seconds|ms) elapsed"
-    f"|elapsed( time)?{_UNIT}|millis",
+    f"|elapsed( time)?{_UNIT}|millis|micros",
     "minutes": f"({_LAT}|{_LON}) ?(.* )?(m|mins?|minutes?|s|secs?|seconds?)",  # of a degree
-    "other time": f"(.* )?{_TIME}( .*)?",
-    "fix": "(is |gps )?(valid|fix)",
+    "other time": f"(.* )?{_TIME}( .*)?|t (min(ute)?s?|h)",
+    "fix": "((is|has|gps|gnss) )*(valid|fix)( ok| valid)?",
     "quality": "(fix |gps )?quality",
     "fix mode": "(gps )?fix mode",
     "fix type": "(gps )?fix type",
-    "status": "(fix |gps )?status",
+    "status": f"{_OF}(nav )?status( status)?",
+    "receiver": "((gps|gnss) )?(device|receiver|instance|tracker)( id| name)?",
     "satellites": "(num(ber of)? )?(sv|sats?|satellites)( used)?|n ?sats?|num ?sv",
     "hdop": "hdop",
     "accuracy": "(gps |horizontal |position )?accuracy( m| meters| metres)?|h ?acc m",
@@ -37,8 +42,7 @@ _ROLES = {  # of a column, by the words of its name; the first that fits
     "( m s| mps| km h| kmh| kph| knots?| kts?| kn| mph)?",
     "course": "(course( over ground)?|cog|bearing|direction)( deg| degrees)?",
 }
-_PER = {"e7": 1e7, "t": 1.0, "s": 1.0, "sec": 1.0, "seconds": 1.0}
-_PER |= {"mps": 1.0, "ms": 1e3, "milliseconds": 1e3, "millis": 1e3, "us": 1e6, "ns": 1e9}
+_PER |= {"e7": 1e7, "t": 1.0, "mps": 1.0, "millis": 1e3, "micros": 1e6}
 _PER |= dict.fromkeys(("h", "kmh", "kph"), 3.6) | {"mph": 1.0 / 0.44704}
 _PER |= dict.fromkeys(("knot", "knots", "kt", "kts", "kn"), 1.0 / KNOT)
 _PLAIN = ("sps", "gps", "gnss", "single", "autonomous")
@@ -50,7 +54,7 @@ _FIX_TYPES = {"2": 1.0, "3": 1.0, "4": 2.0, "5": 5.0, "6": 4.0, "8": 3.0}  # MAV
 # The first word says so, unless another one denies it.
 _GOOD = {"fix": _FIX, "quality": _FIX, "fix mode": _FIX - {"1"}, "status": _FIX | {"0"}}
 _GOOD["fix type"] = _FIX - {"1", "9"} | _FIX_TYPES.keys() | {"7"}
-_ARDUPILOT = {"status": "fix type"}
+_ARDUPILOT = {"status": "fix type", "I": "receiver"}
 _DENIED = {"no", "none", "not", "invalid"}
 _MINUTES = re.compile(r"[-+NSEW ]*0[0-9]{3,}(\D|$)")
 _FIRST = 100  # rows that tell which of several columns can be read
@@ -76,6 +80,7 @@ def read(text: TextIO) -> Fixes:
         for line, row in chain(first, numbered):
             try:
                 lat, lon, time, doubt = _position(columns, used, row)
+                fixes.receiver = row[used["receiver"].place] if "receiver" in used else ""
                 fixes.add(lat, lon, time, line, _reported(used, row), doubt)
             except ValueError as error:
                 fixes.skip(str(error), line)
@@ -109,7 +114,9 @@ def _header(lines: Iterator[str], fixes: Fixes) -> tuple[int, str, list[_Column]
             names = next(csv.reader([line], delimiter=delimiter))
             columns = [_column(name.strip(), place) for place, name in enumerate(names)]
             if {"GMS", "GWk"} <= {*names}:  # ArduPilot's status is MAVLink's fix type
-                columns = [c._replace(role=_ARDUPILOT.get(c.role, c.role)) for c in columns]
+                columns = [
+                    c._replace(role=_ARDUPILOT.get(c.role or c.name, c.role)) for c in columns
+                ]
             if {"lat", "lon"} <= {column.role for column in columns}:
                 return row, delimiter, columns
         if line.strip():
@@ -133,6 +140,9 @@ def _chosen(columns: list[_Column], rows: list[list[str]]) -> tuple[dict[str, _C
     for column in columns:
         by_role.setdefault(column.role, []).append(column)
     used = {role: same[0] for role, same in by_role.items() if role}
+    if "N/S" in used and all(_number(row[used["N/S"].place]) > 1.0 for row in rows):
+        del used["N/S"]  # RTKLIB's ns counts the satellites
+        del by_role["N/S"]
     pairs = [(a, b) for a in by_role["lat"] for b in by_role["lon"] if _style(a) == _style(b)]
     used["lat"], used["lon"] = pairs[0] if pairs else (used["lat"], used["lon"])
     date = used.get("date")

@@ -34,7 +34,13 @@ def at_rest(robot: Robot, track: Track) -> Robot:
 
     Positions far outside the scatter of the others are left out. It is too small unless the log is
     much longer than the memory: what errs by the same amount all the time does not scatter.
+
+    Raises
+    ------
+    ValueError : a track of one position, which has no scatter
     """
+    if len(track) < 2:
+        raise ValueError(f"track = {track!r} is not allowed: at least 2 positions are needed")
     near = ~strays(track.points)
     points = wmr.GeoPoint(lat=track.points.lat[near], lon=track.points.lon[near])
     first = wmr.GeoPoint(lat=float(points.lat[0]), lon=float(points.lon[0]))
