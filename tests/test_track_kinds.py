@@ -203,6 +203,30 @@ def test_of_several_receivers_with_names_one_is_used(read, kind, log, offsets):
 
 
 @few
+@given(st.lists(st.integers(0, 99), max_size=3))
+def test_a_receiver_that_is_plugged_in_again_is_the_same(read, at):
+    """By another name, as /dev/ttyACM1 after /dev/ttyACM0."""
+    rows = [
+        f"{lat},{lon},{second},ACM{sum(second > k for k in at)}" for second, lat, lon in walk(100)
+    ]
+    track = read(["lat,lon,t,device", *rows, ""])
+    assert (track.t.tolist(), remarks(track)) == ([*range(100)], {})
+
+
+@few
+@given(st.integers(-90, 90))
+def test_segments_whose_times_overlap_are_noted(read, later):
+    """Two receivers, or two drives in another order: t does not increase where one begins."""
+    segments = [
+        trk(*(f'<trkpt lat="{lat}" lon="44.5"><time>{iso(k + later * part)}</time></trkpt>'
+              for k, lat, _ in walk(30, 1.0 + part))) for part in (0, 1)
+    ]  # fmt: skip
+    track = read(gpx("".join(segments)))
+    note = {"where a segment begins before the end of the one before": 1} if later < 30 else {}
+    assert {reason: row.count for reason, row in track.report.noted.items()} == note
+
+
+@few
 @given(st.sampled_from([rest, walk]), st.integers(20, 60), st.floats(5, 30), st.floats(0.01, 0.99))
 def test_of_two_receivers_without_names_the_report_tells(read, log, n, metres, later):
     """At rest, and on a walk: there is no telling whose a position is."""
@@ -299,8 +323,18 @@ def test_the_best_column_can_be_read_tells_most_and_comes_with_its_twin(read):
     rows = [f"2026-03-01T12:00:0{k // 4}Z,{250 * k},1,2" for k in range(8)]
     track = read(["time,time_ms,lat,lon", *rows, ""])
     assert track.t.tolist() == [0.25 * k for k in range(8)]
-    track = read("lat,gps_lat,gps_lon,latitude,longitude,lon\n1,2,3,4,5,6\n")
-    assert [x.tolist() for x in (track.points.lat, track.points.lon)] == [[1.0], [6.0]]
+    for head in (
+        "lat,gps_lat,gps_lon,latitude,longitude,lon",
+        "lat,x,location_lon,y,location_lat,lon",
+    ):
+        track = read(f"{head}\n1,2,3,4,5,6\n")
+        assert [x.tolist() for x in (track.points.lat, track.points.lon)] == [[1.0], [6.0]]
+    track = read("location_lat,location_lon,lat,lon\n1,2,3,4\n")
+    assert (track.points.lat[0], track.points.lon[0]) == (3.0, 4.0)
+    with_a_name = read("seconds,lat,lon\n7,1,2\n").report.noted
+    assert [*with_a_name] == [
+        "with a number in column 'seconds', which would have to be t or time_ms"
+    ]
 
 
 SECONDS = ["s", "sec", "secs", "second", "seconds"]

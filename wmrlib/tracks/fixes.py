@@ -115,7 +115,8 @@ class Fixes:
         nowhere = neighbours.null_island(table[:, 2], table[:, 3])
         _count(self.skipped, "position at (0, 0)", table[nowhere])
         table = table[~nowhere]
-        if len(self._receivers) > 1:
+        changes = (np.diff(table[:, -1]) != 0.0).sum()
+        if changes > max(3, 0.02 * len(table)):  # else one was plugged in again by another name
             trusted = [1 + trust(quality) for quality in table[:, 5].tolist()]
             best = np.bincount(table[:, -1].astype(int), trusted).argmax()
             _count(self.skipped, "position of another receiver", table[table[:, -1] != best])
@@ -124,7 +125,11 @@ class Fixes:
         _count(self.skipped, "same time and place again", table[again])
         table = table[~again]
         parts = np.split(table, np.flatnonzero(np.diff(table[:, 1])) + 1)
-        table = np.concatenate([self._settled(part) for part in parts])[:, 2:-1].T
+        table = np.concatenate([self._settled(part) for part in parts])
+        timed = table[~np.isnan(table[:, 4])]
+        early = timed[1:][np.diff(timed[:, 4]) <= 0.0]
+        _count(self.noted, "where a segment begins before the end of the one before", early)
+        table = table[:, 2:-1].T
         return table, Report(table.shape[1], self.skipped, self.noted, self.place)
 
     def _settled(self, part: np.ndarray) -> np.ndarray:

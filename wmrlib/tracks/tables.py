@@ -144,7 +144,8 @@ def _chosen(columns: list[_Column], rows: list[list[str]]) -> tuple[dict[str, _C
         del used["N/S"]  # RTKLIB's ns counts the satellites
         del by_role["N/S"]
     pairs = [(a, b) for a in by_role["lat"] for b in by_role["lon"] if _style(a) == _style(b)]
-    used["lat"], used["lon"] = pairs[0] if pairs else (used["lat"], used["lon"])
+    if pairs:  # the first of the plainest
+        used["lat"], used["lon"] = min(pairs, key=lambda pair: len(_style(pair[0])[0]))
     date = used.get("date")
     candidates = chain(*(by_role.get(role, []) for role in ("time", "other time", "date", "")))
     clocks = [(_best(column, date, rows), column) for column in candidates]
@@ -215,6 +216,8 @@ def _position(
     doubt = f"with an unreadable time in column {clock.name!r}"
     if not (clock.per and clock.role == "time") and math.isfinite(_number(cells["time"])):
         doubt = f"with a number without a unit in column {clock.name!r}"
+        if clock.role != "time":
+            doubt = f"with a number in column {clock.name!r}, which would have to be t or time_ms"
     return lat, lon, _seconds(clock, used.get("date"), row), doubt
 
 
