@@ -143,8 +143,8 @@ def test_the_command_puts_all_that_the_example_needs_into_a_folder(tmp_path):
     subprocess.run([*compile_line.split(), "-DMY_ROBOT"], cwd=folder, check=True)
     sure, ends = wr.certificate(robot), []
     for seed in range(1, 31):
-        said = subprocess.check_output([folder / "example", str(seed)], text=True)
-        ends += re.findall(r"^parked: (.*) m and (.*) deg from the goal", said, re.MULTILINE)
+        printed = subprocess.check_output([folder / "example", str(seed)], text=True)
+        ends += re.findall(r"^parked: (.*) m and (.*) deg from the goal", printed, re.MULTILINE)
     places, headings = np.array(ends, dtype=float).T
     assert len(places) == 30
     assert np.mean(places < sure.place_bound) >= 0.9

@@ -236,10 +236,13 @@ def test_a_fix_below_the_least_quality_is_refused(quality, least):
 @given(st.floats(0.15, 3.0), st.floats(-3.1, 3.1), st.floats(0.5, 4.0), st.floats(0.5, 3.0))
 def test_with_rtk_a_wrong_fix_that_lasts_stops_the_robot(off, towards, begin, wait):
     """By the rules of its sheet: it neither believes the fix in the end nor waits for ever."""
-    told = wr.sheet(wr.Robot())
-    goal, rules = wmr.Pose(told.x, told.y, told.heading), told.rules._replace(longest_wait=wait)
-    drive = wr.Drive(goal, told.gains, told.wheels, told.turn, rules)
-    pose = wmr.Pose(0.0, 0.0, math.atan2(told.y, told.x))
+    numbers = wr.sheet(wr.Robot())
+    goal, rules = (
+        wmr.Pose(numbers.x, numbers.y, numbers.heading),
+        numbers.rules._replace(longest_wait=wait),
+    )
+    drive = wr.Drive(goal, numbers.gains, numbers.wheels, numbers.turn, rules)
+    pose = wmr.Pose(0.0, 0.0, math.atan2(numbers.y, numbers.x))
     pose, _ = goes(drive, pose, 1.0 + begin, width=0.4)
     assert drive.state == "drive"
     east, north = off * math.cos(towards), off * math.sin(towards)
