@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import json
 import math
 import posixpath
 import re
@@ -9,13 +11,17 @@ from pathlib import Path, PurePosixPath
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 pytest.importorskip("anywidget", reason="the panel needs anywidget and ipywidgets")
+import ipywidgets as widgets
 from kit import printed
 from traitlets import TraitError
 
 import wmrlib as wmr
-from wmrbook.panel import Explorer, kit
+from wmrbook import live
+from wmrbook.panel import Explorer, MyRobot, kit
 from wmrbook.panel.controls import METHODS
 from wmrlib import paper
 from wmrlib.laws import POSE_LAWS
@@ -29,7 +35,7 @@ def test_the_trajectory_is_that_of_the_state():
     explorer.gains, explorer.dt, explorer.law = GAINS, 0.05, "aicardi"
     explorer.start, explorer.goal = wmr.Pose(1.0, 2.0, 3.0), wmr.Pose(4.0, 5.0, -1.0)
     for method in METHODS:
-        explorer.state = explorer.state | {"method": method, "arrival_radius": 0.2}
+        explorer.method, explorer.arrival_radius = method, 0.2
         ends, options = (wmr.Pose(1.0, 2.0, 3.0), wmr.Pose(4.0, 5.0, -1.0)), {"dt": 0.05}
         options |= {"law": "aicardi", "method": method, "arrival_radius": 0.2}
         theirs = wmr.simulate(*ends, GAINS, **options)
@@ -49,7 +55,7 @@ def test_wheels_are_in_the_trajectory_while_commands_are_held():
     np.testing.assert_array_equal(explorer.trajectory().x, theirs.x)
     circle = Explorer.circle(wheels=wheels)
     assert wmr.residual(circle.trajectory()) > 0.1
-    explorer.state = explorer.state | {"method": "continuous"}
+    explorer.method = "continuous"
     assert explorer.wheels is None
     assert wmr.arrival(explorer.trajectory()).arrived
 
@@ -125,8 +131,176 @@ def test_a_state_of_other_kinds_is_refused_by_name_and_leaves_the_panel_as_it_wa
         with pytest.raises(TraitError, match=re.escape(f"state['{name}'] = ")):
             explorer.set_state({"state": before | {name: value}})  # as a page does
         assert explorer.state == before
+    others = {key: value for key, value in before.items() if key != name}
+    gain = "h" if name == "k_rho" else "k_rho"
     with pytest.raises(TraitError, match=f"a dict of .*{name}"):
-        explorer.state = {key: value for key, value in before.items() if key != name}
+        explorer.set_state({"state": others, gain: 0.5})
+    assert explorer.state == before
+
+
+NEW = {
+    "k_rho": 0.7,
+    "k_alpha": 3.0,
+    "h": 1.5,
+    "v_max": 2.0,
+    "gains": GAINS,
+    "feedback": wmr.KanayamaGains(0.5, 1.0, 1.0),
+    "start": wmr.Pose(1.0, 2.0, 3.0),
+    "goal": wmr.Pose(4.0, 5.0, -1.0),
+    "wheels": wmr.Wheels(0.4, acceleration=1.0),
+    "dt": 0.05,
+    "duration": 30.0,
+    "arrival_radius": 0.2,
+    "law": "printed",
+    "method": "euler",
+    "view": "gains",
+    "metric": "time",
+    "axes": "k_rho",
+}
+
+
+def observed(explorer, *names):
+    """A list that grows by each notification of these traits, by default of all."""
+    seen = []
+
+    def note(change):
+        assert change["new"] == getattr(explorer, change["name"])
+        fields = (getattr(explorer, name) for name in wmr.Gains._fields)
+        assert explorer.gains == wmr.Gains(*fields)
+        seen.append(change["name"])
+
+    explorer.observe(note, names or [*NEW, "moving"])
+    return seen
+
+
+@pytest.mark.parametrize("name", NEW)
+def test_a_trait_follows_the_cell_and_the_page_with_one_notification(name):
+    explorer, as_made = Explorer(), Explorer().state
+    assert f" {name}," in f" {explorer.settable()},"
+    seen, before = observed(explorer, name), getattr(explorer, name)
+    explorer.set_trait(name, NEW[name])
+    assert getattr(explorer, name) == NEW[name]
+    assert explorer.state != as_made
+    setattr(explorer, name, NEW[name])  # again
+    assert seen == [name]
+    explorer.set_state({"state": {**as_made}})  # as a page does
+    assert getattr(explorer, name) == before
+    assert seen == [name, name]
+
+
+GAIN = st.sampled_from([0.5, 1.0, 2.0, 7.0])
+DEEDS = st.one_of(
+    st.fixed_dictionaries({}, optional=dict.fromkeys(wmr.Gains._fields, GAIN)),
+    st.builds(wmr.Gains, GAIN, GAIN, GAIN, GAIN),
+)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.lists(st.tuples(DEEDS, st.sampled_from(["cell", "held", "page"])), max_size=4))
+def test_whoever_changes_gains_an_observer_sees_whole_ones_and_each_change_once(deeds):
+    explorer = Explorer()
+    seen = observed(explorer)
+    for deed, by in deeds:
+        before, told = explorer.gains, deed if isinstance(deed, dict) else deed._asdict()
+        if by == "page":
+            explorer.set_state({**told, "state": explorer.state | told})
+        elif by == "cell" and not isinstance(deed, dict):
+            explorer.gains = deed
+        else:
+            with explorer.hold_trait_notifications():
+                for name, value in told.items():
+                    setattr(explorer, name, value)
+        pairs = zip(before._asdict().items(), explorer.gains, strict=True)
+        changed = [name for (name, old), new in pairs if old != new]
+        assert explorer.gains == before._replace(**told)
+        assert sorted(seen) == sorted([*changed, *["gains"][: len(changed)]])
+        seen.clear()
+
+
+def test_an_observer_that_sets_a_gain_is_heard_once_and_last():
+    explorer = Explorer()
+    explorer.observe(lambda change: setattr(explorer, "h", 2 * change["new"]), "k_alpha")
+    seen = observed(explorer)
+    explorer.gains = GAINS
+    assert (explorer.k_alpha, explorer.h) == (3.0, 6.0)
+    assert sorted(seen) == ["gains", "gains", "h", "h", "k_alpha", "k_rho", "v_max"]
+
+
+def test_sliders_of_ones_own_are_linked():
+    explorer, slider = Explorer(), widgets.FloatSlider(1.0, max=5.0)
+    widgets.link((slider, "value"), (explorer, "k_rho"))
+    assert explorer.k_rho == 1.0
+    explorer.gains = GAINS
+    assert slider.value == 0.7
+    widgets.dlink((explorer, "gains"), (slider, "description"), repr)
+    explorer.set_state({"state": explorer.state | {"k_rho": 3.0}})
+    assert (slider.value, slider.description) == (3.0, repr(GAINS._replace(k_rho=3.0)))
+    for name in wmr.Gains._fields:
+        widgets.jslink((slider, "value"), (explorer, name))
+        widgets.jsdlink((explorer, name), (slider, "value"))
+
+
+def test_a_page_gets_gains_and_state_in_one_message_and_its_own_not_back(monkeypatch):
+    explorer, sent = Explorer(), []
+    monkeypatch.setattr(explorer, "_send", lambda message, **_: sent.append(message))
+    explorer.gains = GAINS
+    (message,) = sent
+    assert message["state"] == {**GAINS._asdict(), "state": explorer.state}
+    sent.clear()
+    explorer.set_state(
+        {"k_rho": 3, "state": json.loads(json.dumps({**explorer.state, "k_rho": 3}))}
+    )
+    assert [message["method"] for message in sent] == ["echo_update"]
+    assert explorer.k_rho == 3.0
+
+
+def test_other_names_and_the_state_are_refused_by_a_sentence():
+    explorer, thing = Explorer(), live.last_metres()
+    before = explorer.state
+    for panel, name, words in (
+        (explorer, "kp", "no attribute 'kp'; .* gains, .* k_alpha, k_rho, .* layout$"),
+        (explorer, "K_rho", "no attribute 'K_rho'"),
+        (MyRobot(), "sigma", "no attribute 'sigma'"),
+        (thing, "h", r"no attribute 'h'; you can set \['share'\], "),
+        (explorer, "moving", "moving"),
+    ):
+        with pytest.raises((AttributeError, TraitError), match=words):
+            setattr(panel, name, 3.0)
+    with pytest.raises(TraitError, match=r"state is read-only: set .*k_rho"):
+        explorer.state = before | {"k_rho": 1.0}
+    for change in ("update(h=1)", "clear()", "pop('h')", "setdefault('x')", "__setitem__('h', 1)"):
+        with pytest.raises(TypeError, match="state is read-only"):
+            eval(f"explorer.state.{change}")
+    with pytest.raises(TypeError):
+        explorer.state["start"][0] = 1.0
+    assert explorer.state == before == copy.deepcopy(before) == Explorer().state
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "allowed"),
+    [
+        *((name, -1.0, "a finite number at least 0") for name in ("k_rho", "k_alpha", "h")),
+        ("v_max", 0.0, "a finite number above 0"),
+        ("k_rho", math.nan, "a finite number"),
+        ("k_rho", "2", "a finite number at least 0 is needed, not a str"),
+        ("h", [1.0, 2.0], "one number is needed"),
+        ("h", 1e9, "at most 1e\\+06"),
+        ("gains", (1.0, 2.0, 3.0), "a Gains is needed"),
+        ("method", "rk4", "one of 'arc', 'euler', 'continuous'"),
+        ("duration", 0.01, "at least 0.1 and at most 10000"),
+        ("arrival_radius", -1, "at least 0"),
+    ],
+)
+def test_a_bad_value_is_refused_by_name_and_the_old_one_stays(name, value, allowed):
+    explorer = Explorer()
+    seen, before = observed(explorer), getattr(explorer, name)
+    for kind in (ValueError, TraitError):
+        with pytest.raises(kind, match=f"^{name} = .* is not allowed: .*{allowed}"):
+            setattr(explorer, name, value)
+    with pytest.raises(TraitError):
+        explorer.set_state({name: value, "state": {**explorer.state, name: value}})
+    assert getattr(explorer, name) == before
+    assert seen == []
 
 
 def imported(texts, path, above=()):

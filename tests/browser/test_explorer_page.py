@@ -6,6 +6,7 @@ import csv
 import itertools
 import json
 import math
+from types import SimpleNamespace
 from urllib.parse import urlencode
 
 import numpy as np
@@ -15,7 +16,7 @@ from hypothesis import strategies as st
 
 pytest.importorskip("anywidget", reason="the panel needs anywidget and ipywidgets")
 from faults import crowded
-from host import URL, mounted
+from host import TRAITS, URL, mounted
 
 import wmrlib as wmr
 from wmrbook.panel import Explorer
@@ -177,9 +178,10 @@ def test_an_absurd_value_is_answered_in_the_panel(emptied_page):
     assert panel.type(typed, "1,000").troubled()  # could be either
     assert panel.get("k_alpha") == before
     assert panel.type(typed, "1,5").get("k_alpha") == 1.5
-    explorer = Explorer()
-    explorer.state = explorer.state | {"k_rho": -1.0}  # and one that it begins with
-    panel = mounted(emptied_page, explorer)
+    stored = Explorer().get_state(TRAITS)
+    stored["state"] = stored["state"] | {"k_rho": -1.0}  # and one that it begins with
+    begun = SimpleNamespace(program="explorer", get_state=lambda _: stored)
+    panel = mounted(emptied_page, begun)
     assert panel.troubled()
     assert min(panel.colours()) > 10
     assert not panel.set(k_rho=1.0).troubled()

@@ -18,7 +18,34 @@ CELLS = [
     "explorer = Explorer(view='gains')\nexplorer",
     "print('seen', explorer.gains, len(explorer.trajectory()), explorer.law, explorer.moving)",
     "explorer.gains, explorer.law = wmr.Gains(1.5, 4.0, 2.5), 'aicardi'",
+    "import ipywidgets as w\nslider = w.FloatSlider(2.5, max=5, step=0.05)\n"
+    "w.jslink((slider, 'value'), (explorer, 'k_rho'))\nslider",
 ]
+ROWS = "notebooks/rows.ipynb"
+CONTAINERS = [
+    """import ipywidgets as w
+from wmrbook import live
+from wmrbook.panel import Explorer, Front, MyRobot
+
+def panels():
+    return [Explorer(), live.last_metres(), MyRobot(), Front()]
+
+def app():
+    sides = dict(zip(["header", "left_sidebar", "center", "right_sidebar"], panels()))
+    return w.AppLayout(**sides, pane_widths=[1, 1, 1])
+
+columns = w.Layout(grid_template_columns="auto auto")
+later = w.Tab([w.Label(), w.HBox(panels())]), w.Accordion([w.GridBox(panels(), layout=columns)])
+narrow = Explorer()
+narrow.layout.width = "400px"
+beside = w.HBox([w.Label("The gains of"), w.Label("the paper"), Explorer()]), w.HBox([narrow])
+display(w.HBox(panels()), w.VBox(panels()), app(), *beside, *later)""",
+    "later[0].selected_index, later[1].selected_index = 1, 0",
+]
+# Width, whether all canvases are drawn, and the kind, of the panels in sight.
+ROOMS = """() => [...document.querySelectorAll('.wmr')].filter(it => it.checkVisibility()).map(it => {
+    const drawn = [...it.querySelectorAll('canvas:not([hidden])')].every(each => each.width > 200);
+    return [it.clientWidth, drawn, it.className]; })"""
 # ipywidgets' broken link over what has no kernel, which a stored panel doesn't need.
 BROKEN_LINKS = """() => [...document.querySelectorAll('.jupyter-widgets-disconnected')]
     .map(it => getComputedStyle(it, '::before').content)"""
@@ -36,9 +63,10 @@ def lab(tmp_path_factory):
     home = tmp_path_factory.mktemp("lab")
     shutil.copytree(ROOT / "notebooks", home / "notebooks", ignore=shutil.ignore_patterns(".*"))
     release_with_a_mistake(home / "notebooks")
-    panel = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in CELLS])
-    panel.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
-    nbformat.write(panel, home / PANEL)
+    for name, cells in ((PANEL, CELLS), (ROWS, CONTAINERS)):
+        panel = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(it) for it in cells])
+        panel.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
+        nbformat.write(panel, home / name)
     with jupyterlab(home, "--config=book/lab/jupyter_lab_config.py"):
         yield home
 
@@ -225,3 +253,27 @@ def test_python_follows_the_panel_which_follows_python(lab, browser_page):
 
     page.locator("[data-do=reset]").click()
     assert_python_sees(page, "k_rho=2.0, k_alpha=1.0, h=0.3")
+
+    run(page, 3)
+    own = page.locator(".widget-slider [role=slider]")
+    assert_python_sees(page, "k_rho=2.5, k_alpha=1.0, h=0.3")
+    own.press("ArrowRight")
+    assert_python_sees(page, "k_rho=2.55, k_alpha=1.0, h=0.3")
+    page.locator("[data-control=k_rho] .wmr-slider").press("End")
+    assert_python_sees(page, "k_rho=5.0, k_alpha=1.0, h=0.3")
+    assert float(own.get_attribute("aria-valuenow")) == 5.0
+    page.locator("[data-control=h] .wmr-slider").press("ArrowRight")
+    assert_python_sees(page, "k_rho=5.0, k_alpha=1.0, h=0.35")
+
+
+def test_panels_have_room_and_draw_in_every_container_of_ipywidgets(lab, browser_page):
+    page = browser_page
+    open_notebook(page, link(lab).replace(CHAPTER, ROWS), ROWS)
+    for cell, count in enumerate((14, 22)):  # the last eight once their tab and fold are opened
+        run(page, cell)
+        drawn = f"count => ({ROOMS})().filter(([, drawn]) => drawn).length === count"
+        page.wait_for_function(drawn, arg=count)
+        rooms = page.evaluate(ROOMS)
+        assert len(rooms) == count
+        assert min(rooms)[0] >= 300, rooms
+    assert 400 in [width for width, *_ in rooms]  # as its reader chose

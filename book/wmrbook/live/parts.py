@@ -149,6 +149,9 @@ class Live(Panel):
         value = self._knobs[self._named(name)].allowed(name, value)
         self.state = self.state | {name: value}
 
+    def settable(self) -> str:
+        return ", ".join([*(f"[{name!r}]" for name in self._knobs), super().settable()])
+
     def _named(self, name: str) -> str:
         if name not in self._knobs:
             raise refusal("knob", name, f"one of {', '.join(self._knobs)}")

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import traitlets
 
 from wmrbook.panel.controls import FOLDED, MENUS, METHODS, PANEL_LAWS, SLIDERS, VIEWS, laws_for
+from wmrbook.panel.derived import Derived, State, refusing
 from wmrbook.panel.kit import Panel
 from wmrlib import paper
 from wmrlib.body import Wheels, checked_wheels
@@ -22,26 +24,47 @@ FEEDBACK = KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
 """Well damped on the circle at every speed: k_heading/(2 sqrt(k_y)) = 0.71."""
 
 
-def _tuned(name: str, kind: Any, says: str) -> property:
-    return property(
-        lambda self: kind(*(self.state[field] for field in kind._fields)),
-        lambda self, gains: self._set(_numbers(name, gains, kind)),
-        doc=says,
+def _tuned(kind: Any, says: str) -> Derived:
+    return Derived(
+        lambda state: kind(*(state[field] for field in kind._fields)),
+        lambda name, gains, _: _numbers(name, gains, kind),
+        says,
     )
 
 
-def _placed(name: str, says: str) -> property:
-    return property(
-        lambda self: Pose(*self.state[name]),
-        lambda self, pose: self._set({name: _three(name, pose)}),
-        doc=says,
+def _gain(name: str) -> Derived:
+    """One of the gains. It is synced, so that `jslink` and `jsdlink` take it."""
+    label, tip, *_ = SLIDERS[name]
+
+    def written(_, value: float, __) -> dict[str, float]:
+        Gains(**{**GENTLE_GAINS._asdict(), name: value})  # raises for a negative one, for example
+        return {name: scalar(name, value, high=1e6)}
+
+    says = f"{label}: {tip}."
+    return Derived(lambda state: float(state[name]), written, says).tag(sync=True)
+
+
+def _placed(name: str, says: str) -> Derived:
+    return Derived(
+        lambda state: Pose(*state[name]), lambda name, pose, _: {name: _three(name, pose)}, says
+    )
+
+
+def _menu(name: str) -> Derived:
+    _, tip, choices = MENUS[name]
+    return Derived(
+        lambda state: state[name],
+        lambda name, value, _: {name: choice(name, value, choices)},
+        f"The menu: {tip}.",
     )
 
 
 class Explorer(Panel):
     """The robot on its way from `start` to `goal`, or after the paper's circle, under sliders.
 
-    Everything but `trajectory` works without a kernel too.
+    Everything but `trajectory` works without a kernel too. All that can be set is a trait and
+    follows the panel: `observe` it, or `link` it with a widget of your own; k_rho, k_alpha, h and
+    v_max also by `jslink`.
 
     Parameters
     ----------
@@ -111,70 +134,85 @@ class Explorer(Panel):
         sliders = [(name, *row) for name, row in SLIDERS.items()]
         setup = {"home": home, "presets": _presets(), "laws": PANEL_LAWS}
         setup |= {"sliders": sliders, "menus": menus, "folded": [*FOLDED.items()]}
+        self._announced: dict[str, Any] = {}
         super().__init__("explorer", home, setup)
 
     def __repr__(self) -> str:
-        return f"Explorer(law={self.law!r}, method={self.state['method']!r})"
+        return f"Explorer(law={self.law!r}, method={self.method!r})"
 
     @classmethod
     def circle(cls, **options) -> Explorer:
         """An Explorer of the paper's moving goal: a circle of 4 m radius, once round in 40 s."""
         return cls(reference="circle", **options)
 
+    state = State().tag(sync=True)
+
     @traitlets.validate("state")
     def _checked(self, proposal: dict[str, Any]) -> dict[str, Any]:
         """What a page, or a cell, sets: of the kinds that the panel was made with."""
         state, home = proposal["value"], self.setup["home"]
-        try:
+        with refusing():
             if state.keys() != home.keys():
-                raise refusal("state", state, f"a dict of {', '.join(home)}")
+                raise refusal("state", {**state}, f"a dict of {', '.join(home)}")
             for name, usual in home.items():
                 _check_kind(name, state[name], usual, laws_for(state["moving"] is True))
-        except ValueError as error:  # traitlets takes back only what this error refuses
-            raise traitlets.TraitError(str(error)) from None
+            for name, trait in self._derived().items():
+                value = trait.read(state)
+                if trait.written and value is not None:  # the checks of a cell are a page's too
+                    trait.written(name, value, state)
         return state
 
-    gains = _tuned("gains", Gains, "The gains that the sliders show; setting them moves these.")
-    feedback = _tuned("feedback", KanayamaGains, "The same for the law with feed-forward.")
+    @traitlets.observe("state")
+    def _announce(self, _) -> None:
+        """Notify of the traits whose values have changed, once, even if an observer sets one."""
+        for name, trait in self._derived().items():
+            before, now = self._announced.get(name), trait.read(self.state)
+            if now != before:
+                self._announced[name] = now
+                self._notify_trait(name, before, now)
+
+    gains = _tuned(Gains, "The gains that the sliders show; setting them moves these.")
+    k_rho, k_alpha, h, v_max = map(_gain, Gains._fields)
+    feedback = _tuned(KanayamaGains, "The same for the law with feed-forward.")
     start = _placed("start", "Where the robot starts; setting it moves its handle.")
     goal = _placed("goal", "The goal that stands still; setting it moves its handle.")
-
-    @property
-    def wheels(self) -> Wheels | None:
-        """The wheels that the sliders show, None if they are ideal or the motion continuous."""
-        width, most, lag, dead = (self.state[name] for name in FOLDED["Wheels"])
-        chosen = Wheels(width, acceleration=most or math.inf, lag=lag, dead_band=dead)
-        ideal = chosen == Wheels(width) or self.state["method"] == "continuous"
-        return None if ideal else chosen
-
-    @wheels.setter
-    def wheels(self, wheels: Wheels) -> None:
-        self._set(_rolling(wheels))
-
-    dt = property(
-        lambda self: self.state["dt"],
-        lambda self, dt: self._set({"dt": _step(dt, self.state["duration"])}),
-        doc="The time step, s, at most the duration; setting it moves the slider.",
+    wheels = Derived(
+        lambda state: _rolled(state),
+        lambda _, wheels, __: _rolling(wheels),
+        "The wheels that the sliders show, None if they are ideal or the motion continuous.",
     )
-    law = property(
-        lambda self: self.state["law"],
-        lambda self, law: self._set({"law": choice("law", law, laws_for(self.moving))}),
-        doc="The law in force, one that this goal allows; setting it moves the menu.",
+    dt = Derived(
+        lambda state: state["dt"],
+        lambda _, dt, state: {"dt": _step(dt, state["duration"])},
+        "The time step, s, at most the duration; setting it moves the slider.",
     )
-    moving = property(lambda self: self.state["moving"], doc="Whether the goal is the circle's.")
+    duration = Derived(
+        lambda state: state["duration"],
+        lambda _, duration, state: _lasting(duration, state["dt"]),
+        "The longest time of a run, s, at least dt and at most 100,000 dt.",
+    )
+    arrival_radius = Derived(
+        lambda state: state["arrival_radius"],
+        lambda name, radius, _: {name: scalar(name, radius, low=0.0)},
+        "How near the goal the robot stops, m; setting it moves the slider.",
+    )
+    law = Derived(
+        lambda state: state["law"],
+        lambda _, law, state: {"law": choice("law", law, laws_for(state["moving"]))},
+        "The law in force, one that this goal allows; setting it moves the menu.",
+    )
+    method, view, metric, axes = map(_menu, ("method", "view", "metric", "axes"))
+    moving = Derived(lambda state: state["moving"], says="Whether the goal is the circle's.")
 
     def trajectory(self) -> Trajectory:
         """The run that the panel shows, by `wmrlib.simulate` or `wmrlib.track`."""
-        options = {name: self.state[name] for name in ("law", "method", "dt", "duration")}
+        options = {name: getattr(self, name) for name in ("law", "method", "dt", "duration")}
         options["wheels"] = self.wheels
         if self.moving:
             gains = self.gains if LAWS[self.law].gains is Gains else self.feedback
             return track(paper.circle, self.start, gains, **options)
-        radius = self.state["arrival_radius"]
-        return simulate(self.start, self.goal, self.gains, arrival_radius=radius, **options)
-
-    def _set(self, values: dict[str, Any]) -> None:
-        self.state = self.state | values
+        options["arrival_radius"] = self.arrival_radius
+        return simulate(self.start, self.goal, self.gains, **options)
 
 
 def _check_kind(name: str, value: Any, usual: Any, laws: list[str]) -> None:
@@ -205,6 +243,10 @@ def _step(dt: float, duration: float) -> float:
     return scalar("dt", dt, low=duration / 100_000, high=duration)
 
 
+def _lasting(duration: float, dt: float) -> dict[str, float]:
+    return {"duration": scalar("duration", duration, low=dt, high=100_000 * dt)}
+
+
 def _three(name: str, pose: Pose) -> list[float]:
     return list(_numbers(name, pose, Pose).values())
 
@@ -221,6 +263,13 @@ def _rolling(wheels: Wheels) -> dict[str, float]:
     if given != Wheels(**fields):
         raise refusal("wheels", wheels, f"nothing but {', '.join(fields)}")
     return fields | {"acceleration": 0.0 if given.acceleration == math.inf else given.acceleration}
+
+
+def _rolled(state: Mapping[str, Any]) -> Wheels | None:
+    width, most, lag, dead = (state[name] for name in FOLDED["Wheels"])
+    chosen = Wheels(width, acceleration=most or math.inf, lag=lag, dead_band=dead)
+    ideal = chosen == Wheels(width) or state["method"] == "continuous"
+    return None if ideal else checked_wheels(chosen)
 
 
 def _presets() -> list[dict]:

@@ -16,6 +16,8 @@ from typing import Any
 import anywidget
 import traitlets
 
+from wmrbook.panel.derived import Derived
+
 KIT = Path(__file__).with_name("kit")
 STYLE = KIT / "panel.css"
 LOADER = Path(__file__).with_name("loader.js").read_text(encoding="utf-8")
@@ -57,6 +59,21 @@ class Panel(anywidget.AnyWidget):
         super().__init__(program=program, **stored)
         self.add_class("jupyter-widgets")
         self.on_msg(self._answer)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_") and not hasattr(type(self), name):
+            kind = type(self).__name__
+            raise AttributeError(f"{kind} has no attribute {name!r}; you can set {self.settable()}")
+        super().__setattr__(name, value)
+
+    def settable(self) -> str:
+        """The names of what can be set, for messages."""
+        names = [name for name, it in self._derived().items() if not it.read_only]
+        return ", ".join([*names, "layout"])
+
+    @classmethod
+    def _derived(cls) -> dict[str, Derived]:
+        return {name: it for name, it in cls.class_traits().items() if isinstance(it, Derived)}
 
     def _answer(self, _, content: Any, buffers: Any) -> None:
         if content == "kit":

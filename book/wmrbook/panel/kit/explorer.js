@@ -19,6 +19,7 @@ import { summarise } from './simulate.js';
 import { widget } from './widget.js';
 
 const LASTS = 8; // s that playing a run takes at most
+const GAINS = ['k_rho', 'k_alpha', 'h', 'v_max'];
 const RESTING = 0.3; // where on the run the cursor stands until somebody moves it
 
 const RUN_BUTTONS = [ // what each does, is called, and says
@@ -359,4 +360,19 @@ function render({ model, el }) {
   };
 }
 
-export default widget('explorer', render);
+// In Python the gains are traits too, for `jslink`. The state keeps them, and the traits
+// follow it before anything is sent, so that one message has both.
+/** @param {Model} model */
+function mirrorGains(model) {
+  const followState = () =>
+    GAINS.forEach((name) => model.set(name, model.get('state')[name]));
+  model.on('change:state', followState);
+  for (const name of GAINS) {
+    model.on(`change:${name}`, () => {
+      const state = model.get('state'), value = model.get(name);
+      if (state[name] !== value) model.set('state', { ...state, [name]: value });
+    });
+  }
+}
+
+export default widget('explorer', render, mirrorGains);

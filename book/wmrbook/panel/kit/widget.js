@@ -16,9 +16,13 @@ function opensUnchanged({ model }) {
 /**
  * `render` is called only with a state of the contract that the program was written for.
  * @param {string} program @param {(context: Context) => (() => void) | void} render
+ * @param {(model: Model) => void} begin once for all views of a model
  */
-export const widget = (program, render) => ({
-  initialize: opensUnchanged,
+export const widget = (program, render, begin = () => {}) => ({
+  initialize(context) {
+    opensUnchanged(context);
+    begin(context.model);
+  },
   render(context) {
     if (context.model.get('contract') === CONTRACTS[program]) return render(context);
     context.el.textContent =
