@@ -187,6 +187,33 @@ def test_an_absurd_value_is_answered_in_the_panel(emptied_page):
     assert not panel.set(k_rho=1.0).troubled()
 
 
+LISTEN = """() => {
+    wmrPanels.explorer.initialize({ model: panel });
+    window.heard = [];
+    for (const name of ['k_rho', 'k_alpha', 'h', 'v_max']) {
+        panel.set(name, panel.get('state')[name]); // as Python does
+        panel.on(`change:${name}`, () => heard.push(name));
+    }
+    panel.on('change:state', () => heard.push('state'));
+}"""
+
+
+def test_a_gain_that_the_page_links_moves_the_panel_and_follows_it_without_a_kernel(emptied_page):
+    panel = mounted(emptied_page, Explorer())
+    emptied_page.evaluate(LISTEN)
+    figures = panel.figures()
+    emptied_page.evaluate("() => panel.set('k_alpha', 2.5)")
+    assert panel.settled().get("k_alpha") == 2.5
+    assert panel.figures() != figures
+    assert emptied_page.evaluate("heard.splice(0).sort()") == ["k_alpha", "state"]
+    panel.put("h", 1.5)
+    assert emptied_page.evaluate("heard.splice(0).sort()") == ["h", "state"]
+    assert emptied_page.evaluate("[panel.get('h'), panel.get('k_alpha')]") == [1.5, 2.5]
+    panel.put("preset", 3)  # all at once
+    gains = emptied_page.evaluate("['k_rho', 'k_alpha', 'h', 'v_max'].map(it => panel.get(it))")
+    assert gains == [panel.get(name) for name in wmr.Gains._fields] == [*wmr.GENTLE_GAINS]
+
+
 def test_play_moves_the_cursor_to_the_end_and_pause_stops_it(emptied_page):
     panel = mounted(emptied_page, Explorer())
     cursor = emptied_page.locator(".wmr-time")

@@ -43,9 +43,9 @@ display(w.HBox(panels()), w.VBox(panels()), app(), *beside, *later)""",
     "later[0].selected_index, later[1].selected_index = 1, 0",
 ]
 # Width, whether all canvases are drawn, and the kind, of the panels in sight.
-ROOMS = """() => [...document.querySelectorAll('.wmr')].filter(it => it.checkVisibility()).map(it => {
-    const drawn = [...it.querySelectorAll('canvas:not([hidden])')].every(each => each.width > 200);
-    return [it.clientWidth, drawn, it.className]; })"""
+ROOMS = """() => [...document.querySelectorAll('.wmr')].filter(it => it.checkVisibility())
+    .map(it => [it.clientWidth, [...it.querySelectorAll('canvas:not([hidden])')]
+        .every(canvas => canvas.width > 200), it.className])"""
 # ipywidgets' broken link over what has no kernel, which a stored panel doesn't need.
 BROKEN_LINKS = """() => [...document.querySelectorAll('.jupyter-widgets-disconnected')]
     .map(it => getComputedStyle(it, '::before').content)"""
