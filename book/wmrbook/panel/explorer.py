@@ -40,7 +40,8 @@ def _gain(name: str) -> Derived:
         Gains(**{**GENTLE_GAINS._asdict(), name: value})  # raises for a negative one, for example
         return {name: scalar(name, value, high=1e6)}
 
-    says = f"{label}: {tip}."
+    unit = label.partition("[")[2].rstrip("]")
+    says = f"{tip.capitalize()} ({unit}); setting it moves the slider."
     return Derived(lambda state: float(state[name]), written, says).tag(sync=True)
 
 
@@ -55,7 +56,7 @@ def _menu(name: str) -> Derived:
     return Derived(
         lambda state: state[name],
         lambda name, value, _: {name: choice(name, value, choices)},
-        f"The menu: {tip}.",
+        f"{tip.capitalize()}; setting it moves the menu.",
     )
 
 
@@ -153,7 +154,7 @@ class Explorer(Panel):
         state, home = proposal["value"], self.setup["home"]
         with refusing():
             if state.keys() != home.keys():
-                raise refusal("state", {**state}, f"a dict of {', '.join(home)}")
+                raise refusal("state", state, f"a dict of {', '.join(home)}")
             for name, usual in home.items():
                 _check_kind(name, state[name], usual, laws_for(state["moving"] is True))
             for name, trait in self._derived().items():
@@ -267,9 +268,10 @@ def _rolling(wheels: Wheels) -> dict[str, float]:
 
 def _rolled(state: Mapping[str, Any]) -> Wheels | None:
     width, most, lag, dead = (state[name] for name in FOLDED["Wheels"])
-    chosen = Wheels(width, acceleration=most or math.inf, lag=lag, dead_band=dead)
+    given = Wheels(width, acceleration=most or math.inf, lag=lag, dead_band=dead)
+    chosen = checked_wheels(given)
     ideal = chosen == Wheels(width) or state["method"] == "continuous"
-    return None if ideal else checked_wheels(chosen)
+    return None if ideal else chosen
 
 
 def _presets() -> list[dict]:
