@@ -560,7 +560,9 @@ def test_what_would_have_to_be_guessed_is_not_read(read):
         assert np.isnan(track.t).all()
     for number in ("45292.5", "12345", "1767225600", "-5"):  # of Excel, since switched on
         noted = dict(read(f"time,lat,lon\n{number},1,2\n").report.noted)
-        assert noted == {"with a number without a unit in column 'time'": (1, 2)}
+        assert noted == {
+            "with a number in column 'time', which would have to be t or time_ms": (1, 2)
+        }
 
 
 def test_what_windows_and_spreadsheets_write_around_a_table_is_read(read):

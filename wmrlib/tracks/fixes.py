@@ -110,27 +110,27 @@ class Fixes:
 
     def settle(self) -> tuple[np.ndarray, Report]:
         """The rows lat, lon, time and Reported of the positions by time, and the report."""
-        table = np.frombuffer(self.table).reshape(-1, _WIDTH).copy()
+        rows = np.frombuffer(self.table).reshape(-1, _WIDTH).copy()
         # Before the times: such a position often has a date of its own.
-        nowhere = neighbours.null_island(table[:, 2], table[:, 3])
-        _count(self.skipped, "position at (0, 0)", table[nowhere])
-        table = table[~nowhere]
-        changes = (np.diff(table[:, -1]) != 0.0).sum()
-        if changes > max(3, 0.02 * len(table)):  # else one was plugged in again by another name
-            trusted = [1 + trust(quality) for quality in table[:, 5].tolist()]
-            best = np.bincount(table[:, -1].astype(int), trusted).argmax()
-            _count(self.skipped, "position of another receiver", table[table[:, -1] != best])
-            table = table[table[:, -1] == best]
-        again = neighbours.copies(table[:, 2:5], table[:, 1])
-        _count(self.skipped, "same time and place again", table[again])
-        table = table[~again]
-        parts = np.split(table, np.flatnonzero(np.diff(table[:, 1])) + 1)
-        table = np.concatenate([self._settled(part) for part in parts])
-        timed = table[~np.isnan(table[:, 4])]
+        rows = self._without(rows, neighbours.null_island(*rows[:, 2:4].T), "position at (0, 0)")
+        changes = (np.diff(rows[:, -1]) != 0.0).sum()
+        if changes > max(3, 0.02 * len(rows)):  # else one was plugged in again by another name
+            trusted = [1 + trust(quality) for quality in rows[:, 5].tolist()]
+            best = np.bincount(rows[:, -1].astype(int), trusted).argmax()
+            rows = self._without(rows, rows[:, -1] != best, "position of another receiver")
+        again = neighbours.copies(rows[:, 2:5], rows[:, 1])
+        rows = self._without(rows, again, "same time and place again")
+        parts = np.split(rows, np.flatnonzero(np.diff(rows[:, 1])) + 1)
+        rows = np.concatenate([self._settled(part) for part in parts])
+        timed = rows[~np.isnan(rows[:, 4])]
         early = timed[1:][np.diff(timed[:, 4]) <= 0.0]
         _count(self.noted, "where a segment begins before the end of the one before", early)
-        table = table[:, 2:-1].T
-        return table, Report(table.shape[1], self.skipped, self.noted, self.place)
+        report = Report(len(rows), self.skipped, self.noted, self.place)
+        return rows[:, 2:-1].T, report
+
+    def _without(self, rows: np.ndarray, left: np.ndarray, reason: str) -> np.ndarray:
+        _count(self.skipped, reason, rows[left])
+        return rows[~left]
 
     def _settled(self, part: np.ndarray) -> np.ndarray:
         """The positions of a segment that agree with one another."""
@@ -153,15 +153,13 @@ class Fixes:
         _count(self.noted, neighbours.DISAGREEING, np.array(apart))
         _count(self.skipped, "time runs backwards", part[unordered & ~again])
         part = part[~unordered]
+        if neighbours.alternate(part[:, 2], part[:, 3]):
+            _count(self.noted, "in a file that alternates between two receivers, perhaps", part)
         far, few = neighbours.unreachable(*part[:, 2:5].T)
         where = "place that no vehicle reaches in the time"
         if few:
-            _count(self.skipped, where, part[far])
-            part = part[~far]
-        else:
-            _count(self.noted, f"at a {where}", part[far])  # times in a wrong unit, perhaps
-        if neighbours.alternate(part[:, 2], part[:, 3]):
-            _count(self.noted, "in a file that alternates between two receivers, perhaps", part)
+            return self._without(part, far, where)
+        _count(self.noted, f"at a {where}", part[far])  # times in a wrong unit, perhaps
         return part
 
 

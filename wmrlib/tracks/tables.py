@@ -54,7 +54,7 @@ _FIX_TYPES = {"2": 1.0, "3": 1.0, "4": 2.0, "5": 5.0, "6": 4.0, "8": 3.0}  # MAV
 # The first word says so, unless another one denies it.
 _GOOD = {"fix": _FIX, "quality": _FIX, "fix mode": _FIX - {"1"}, "status": _FIX | {"0"}}
 _GOOD["fix type"] = _FIX - {"1", "9"} | _FIX_TYPES.keys() | {"7"}
-_ARDUPILOT = {"status": "fix type", "I": "receiver"}
+_ARDUPILOT = {"Status": "fix type", "I": "receiver"}
 _DENIED = {"no", "none", "not", "invalid"}
 _MINUTES = re.compile(r"[-+NSEW ]*0[0-9]{3,}(\D|$)")
 _FIRST = 100  # rows that tell which of several columns can be read
@@ -114,9 +114,7 @@ def _header(lines: Iterator[str], fixes: Fixes) -> tuple[int, str, list[_Column]
             names = next(csv.reader([line], delimiter=delimiter))
             columns = [_column(name.strip(), place) for place, name in enumerate(names)]
             if {"GMS", "GWk"} <= {*names}:  # ArduPilot's status is MAVLink's fix type
-                columns = [
-                    c._replace(role=_ARDUPILOT.get(c.role or c.name, c.role)) for c in columns
-                ]
+                columns = [c._replace(role=_ARDUPILOT.get(c.name, c.role)) for c in columns]
             if {"lat", "lon"} <= {column.role for column in columns}:
                 return row, delimiter, columns
         if line.strip():
@@ -215,9 +213,7 @@ def _position(
         return lat, lon, math.nan, ""
     doubt = f"with an unreadable time in column {clock.name!r}"
     if not (clock.per and clock.role == "time") and math.isfinite(_number(cells["time"])):
-        doubt = f"with a number without a unit in column {clock.name!r}"
-        if clock.role != "time":
-            doubt = f"with a number in column {clock.name!r}, which would have to be t or time_ms"
+        doubt = f"with a number in column {clock.name!r}, which would have to be t or time_ms"
     return lat, lon, _seconds(clock, used.get("date"), row), doubt
 
 
