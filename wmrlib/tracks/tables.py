@@ -33,7 +33,7 @@ _ROLES = {  # of a column, by the words of its name; the first that fits
     "quality": "(fix |gps )?quality",
     "fix mode": "(gps )?fix mode",
     "fix type": "(gps )?fix type",
-    "status": f"{_OF}(nav )?status( status)?",
+    "status": f"{_OF}status( status)?",
     "receiver": "((gps|gnss) )?(device|receiver|instance|tracker)( id| name)?",
     "satellites": "(num(ber of)? )?(sv|sats?|satellites)( used)?|n ?sats?|num ?sv",
     "hdop": "hdop",
