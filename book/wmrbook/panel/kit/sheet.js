@@ -25,6 +25,7 @@ export function placeOf([lat, lon], [lat2, lon2], earth) {
 }
 
 // How far the antenna is from the middle between the wheels, m.
+/** @param {Values} robot */
 const armOf = ({ antenna_ahead: ahead, antenna_left: left }) => Math.hypot(ahead, left);
 
 /** @param {Values} robot @param {Values} rules */
@@ -94,7 +95,8 @@ export function sheetOf(robot, rules) {
         settle: late + Math.max(minRate, gain * tolerance) / braking },
       duration, rules: { ...usual, arrival_radius: radius, oldest,
         patience: oldest + 2 * Math.max(robot.fix_period, robot.period),
-        largest_error: Math.max(radius, 3 * robot.sigma), least: robot.quality, jump, course: Math.max(rules.leg, 3 * jump),
+        largest_error: Math.max(radius, 3 * robot.sigma), least: robot.quality, jump,
+        course: Math.max(rules.leg, 3 * jump),
         longest_period: Math.max(usual.longest_period, 1.5 * robot.period),
         longest_drive: Math.max(usual.longest_drive, duration),
         farthest: Math.max(usual.farthest, 2 * distance) } };
