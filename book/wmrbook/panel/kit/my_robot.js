@@ -176,8 +176,8 @@ function render({ model, el }) {
         'certain of the others. Try a shorter delay, slower or stronger wheels.'
       : `With 95 % confidence, 95 of 100 drives end within ${written(found.place_bound, 'm')} of ` +
         `the goal, and as many within ${written(found.heading_bound * DEGREES, '°')} of its ` +
-        `heading, if robot and receiver are as you say, and while every fix is ${presumed()}. With ` +
-        'another fix the robot waits.';
+        `heading, if robot and receiver are as you say, and while every fix is ${presumed()}. ` +
+        'With another fix the robot waits.';
     canvas.setAttribute('aria-label', `The robot about its goal after ${found.parked} drives: ` +
       `${written(found.place_rms, 'm')} off, root mean square.`);
     Object.assign(root, { found: { sheet, ends, ...found,
