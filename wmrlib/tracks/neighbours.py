@@ -52,8 +52,8 @@ def alternate(lat: np.ndarray, lon: np.ndarray) -> bool:
     if lat.size < 20:
         return False
     parts = [GeoPoint(lat=lat[k:][: lat.size - 2], lon=lon[k:][: lat.size - 2]) for k in range(3)]
-    to_next, to_second = (np.mean(haversine_distance(parts[0], part)) for part in parts[1:])
-    return bool(to_next > max(1.0, 2.0 * to_second))
+    to_next, to_second = (float(np.mean(haversine_distance(parts[0], p))) for p in parts[1:])
+    return to_next > max(1.0, 2.0 * to_second)
 
 
 def with_its_date_right(time: np.ndarray) -> tuple[np.ndarray, dict[str, np.ndarray]]:
