@@ -32,6 +32,7 @@ ROBOTS = [  # among them, each term of each rule decides
     Robot(period=0.2, **QUICK | {"track_width": 1.5, "max_speed": 0.5}),
     Robot(goal_lat=33.279, **QUICK | {"acceleration": 0.1, "max_speed": 3.0, "delay": 0.1}),
     Robot(antenna_ahead=0.3, antenna_left=-0.2, compass=10.0, fix_period=0.5, acceleration=5.0),
+    Robot(delay=1.5, dead_band=0.0),
 ]
 WRONG = [
     {"track_width": 0.0},

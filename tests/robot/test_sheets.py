@@ -257,6 +257,33 @@ def test_the_c_file_makes_the_steps_that_the_sheet_makes(robot, shaky, real, nea
     )  # it parked with the last one
 
 
+UNUSUAL = {
+    "a drive of half an hour": Robot(max_speed=0.05, dead_band=0.003, acceleration=0.3),
+    "a fast loop of a slow robot": Robot(period=0.01, max_speed=0.3, dead_band=0.02),
+    "an antenna ahead and a bad compass": Robot(antenna_ahead=0.3, compass=10.0),
+    "an antenna behind on the right": Robot(antenna_ahead=-1.2, antenna_left=-0.8, compass=5.0),
+    "a pose that is very late": Robot(delay=2.0, period=0.1, dead_band=0.0),
+    "a late pose of a fast robot": Robot(
+        delay=1.2, period=0.1, dead_band=0.0, max_speed=3.0, acceleration=3.0
+    ),
+}
+
+
+@pytest.mark.needs("compiler")
+@pytest.mark.parametrize("name", UNUSUAL)
+def test_an_unusual_robot_parks_by_its_file_on_the_simulated_robot(name, tmp_path):
+    """It has the errors of the sheet, and a lag and a compass that scatters, which it has not."""
+    text = files(UNUSUAL[name])["my_robot.h"]
+    (tmp_path / "my_robot.h").write_text(text, encoding="utf-8")
+    strict = "cc", "-std=c99", "-O1", "-Wall", "-Wextra", "-Werror", "-DMY_ROBOT", f"-I{tmp_path}"
+    program = tmp_path / "example"
+    sources = *INCLUDES, printing.C_EXAMPLE, "-o", program, "-lm"
+    subprocess.run([*strict, *sources], check=True)
+    for seed in range(1, 21 if UNUSUAL[name].max_speed > 0.1 else 3):
+        printed = subprocess.check_output([program, str(seed)], text=True)
+        assert re.search("^parked: ", printed, re.MULTILINE), (seed, printed)
+
+
 @settings(max_examples=20, deadline=None)
 @given(st.sampled_from([*robots(20)]), st.floats(-1.0, 1.0), st.floats(0.0, 40.0))
 def test_the_ros_file_is_the_drive_of_the_sheet(robot, ahead, compass):
@@ -275,6 +302,7 @@ def test_the_ros_file_is_the_drive_of_the_sheet(robot, ahead, compass):
         (drive.end, numbers.turn),
         (drive.rules, numbers.rules),
         (read["antenna"], (ahead, -ahead)),
+        ((read["compass_sigma"],), (math.radians(max(compass, 0.1)),)),
     ):
         assert tuple(parts[0]) == pytest.approx(tuple(parts[1]), rel=1e-5, abs=1e-6)
 

@@ -14,7 +14,7 @@ import numpy as np
 import wmrlib as wmr
 from wmrlib.tracks import Track
 from wmrlib.tracks.neighbours import strays
-from wmrrobot.sheets import Robot, sheet
+from wmrrobot.sheets import SUREST, Robot, sheet
 
 TEMPLATES = Path(__file__).with_name("templates")
 
@@ -74,6 +74,7 @@ def files(robot: Robot) -> dict[str, str]:
         degrees = getattr(robot, name)
         words[f"robot.{name}_e7"] = f"{math.floor(1e7 * degrees + 0.5)}"
         words[f"robot.{name}"] = f"{degrees:.7f}"
+    words["robot.compass_sigma"] = number(math.radians(max(robot.compass, SUREST)))
     return {
         name: re.sub("@([a-z0-9_.]+)@", lambda match: words[match[1]], text)
         for name, text in templates().items()

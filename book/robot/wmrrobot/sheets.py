@@ -27,8 +27,11 @@ MOVES = 1.25  # times the dead band a wheel surely turns
 COARSE = 0.35  # rad: a last turn that is coarser is none
 MARGIN = 0.2  # s: a fix may be so much older than usual
 STEADY = 4.0  # sigmas: two fixes of a sound receiver differ by less
+SCATTER = 0.02  # rad: the headings of two fixes differ by so much, whatever the compass error
+SWING = 2.0  # times a wrong compass moves the place on the antenna's arm: a last turn turns that
 CLOSE = 0.1  # m: no jump that is smaller is refused
 LEG = 1.0  # m: over less, a course says little; over more, a soft tyre turns the wheels' heading
+SUREST = 0.1  # degrees: a filter is told of no better compass
 FAR = 1000.0  # m
 RUNS, SEED, SHARE = 400, 14, 0.95
 GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0  # spreads the first headings evenly
@@ -172,7 +175,13 @@ def sheet(robot: Robot) -> Sheet:
         raise refused("dead_band", dead, f"at most half of max_speed, {speed / 2:g},")
     keep = math.exp(-2 * NEW / robot.memory) if robot.memory else 0.0
     min_speed, v_max = MOVES * dead, SPARE * speed
-    radius = max(NEAREST, robot.sigma * math.sqrt(1 - keep), min_speed * (late + robot.fix_period))
+    swing = arm_of(robot) * math.radians(robot.compass)  # m, of the place on the antenna's arm
+    radius = max(
+        NEAREST,
+        robot.sigma * math.sqrt(1 - keep),
+        min_speed * (late + robot.fix_period),
+        SWING * swing,
+    )
     if (apart := math.hypot(x, y)) < 4 * radius:
         raise ValueError(
             f"the points are {apart:.3g} m apart: at least {4 * radius:.3g} m, four times the "
@@ -201,8 +210,9 @@ def sheet(robot: Robot) -> Sheet:
     oldest = robot.delay + MARGIN
     usual = Rules()
     wheels = wmr.Wheels(robot.track_width, speed, min_speed, robot.acceleration, dead_band=dead)
-    # A wrong heading turns the antenna about the robot; a speed that changes shows a wrong age.
-    error = math.hypot(robot.sigma, arm_of(robot) * math.radians(robot.compass))
+    # A wrong heading turns the antenna about the robot, and the way since a late fix about the fix;
+    # a speed that changes shows a wrong age.
+    error = math.hypot(robot.sigma, swing, SCATTER * v_max * robot.delay)
     aged = MARGIN * min(robot.acceleration * robot.fix_period, speed)
     jump = max(CLOSE, STEADY * error + aged)
     rules = usual._replace(

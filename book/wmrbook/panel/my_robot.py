@@ -46,7 +46,7 @@ QUALITIES = (
     "RTK float or fixed",
 )
 NUMBERS = ("spare", "brake", "nearest", "moves", "coarse", "margin", "steady", "close", "leg")
-NUMBERS += ("far", "golden", "compass", "runs", "seed", "share")
+NUMBERS += ("scatter", "swing", "surest", "far", "golden", "compass", "runs", "seed", "share")
 
 
 class MyRobot(Panel):

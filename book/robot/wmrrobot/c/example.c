@@ -29,7 +29,8 @@ static void my_plan(wmr_plan *plan) {
 #endif
 #define PERIOD_MS ((uint32_t)(1000 * MY_PERIOD + WMR_C(0.5)))
 #define COUNT_M WMR_C(0.0005) /* what a wheel rolls in a count of its encoder */
-#define MOST 20000            /* periods: then it gives up */
+/* periods: then it gives up; so many more than a drive may take, for the waits */
+#define MOST (20000 + (long)(plan.rules.longest_drive / MY_PERIOD))
 
 typedef struct {
   wmr_pose pose;      /* of the antenna, from receiver and compass */
@@ -114,7 +115,8 @@ int main(void) {
   static wmr_memory memory; /* all zeros */
   const wmr_wheels none = {0};
   uint32_t begun = clock_ms() - PERIOD_MS;
-  int count, reason = 0;
+  long count;
+  int reason = 0;
   my_plan(&plan);
 #ifdef PLANT
   plant_begin(&plan, argc > 1 ? argv[1] : "1");
@@ -132,7 +134,7 @@ int main(void) {
   }
   set_wheels(none, 0);
   cut_power(); /* parked, or out of time */
-  printf("%d %.9f %.9f %.9f\n", count, (double)memory.pose.x, (double)memory.pose.y,
+  printf("%ld %.9f %.9f %.9f\n", count, (double)memory.pose.x, (double)memory.pose.y,
          (double)memory.pose.heading);
 #ifdef PLANT
   plant_end(&plan, memory.state);

@@ -143,7 +143,7 @@ function render({ model, el }) {
   }
   for (const name of Object.keys(templates))
     made(bar, 'button', { type: 'button', textContent: `Save ${name}`,
-      onclick: () => download(name, new Blob([filesOf(robot(), sheet, templates)[name]])) });
+      onclick: () => download(name, new Blob([filesOf(robot(), sheet, rules, templates)[name]])) });
 
   function draw() {
     const far = ends.reduce((most, { place }) => Math.max(most, place < Infinity ? place : 0),
@@ -181,7 +181,7 @@ function render({ model, el }) {
     canvas.setAttribute('aria-label', `The robot about its goal after ${found.parked} drives: ` +
       `${written(found.place_rms, 'm')} off, root mean square.`);
     Object.assign(root, { found: { sheet, ends, ...found,
-      files: filesOf(robot(), sheet, templates) } });
+      files: filesOf(robot(), sheet, rules, templates) } });
     root.dataset.done = 'true';
     draw();
   }

@@ -60,8 +60,9 @@ export function sheetOf(robot, rules) {
     throw notAllowed('dead_band', digits(dead), `at most half of max_speed, ${digits(speed / 2)},`);
   const keep = robot.memory ? Math.exp(-2 * rules.fresh / robot.memory) : 0,
       minSpeed = rules.moves * dead, vMax = rules.spare * speed;
-  const radius = Math.max(rules.nearest, robot.sigma * Math.sqrt(1 - keep),
-      minSpeed * (late + robot.fix_period));
+  const swing = armOf(robot) * robot.compass / DEGREES,
+      radius = Math.max(rules.nearest, robot.sigma * Math.sqrt(1 - keep),
+          minSpeed * (late + robot.fix_period), rules.swing * swing);
   if (distance < 4 * radius)
     throw new RangeError(`the points are ${digits(distance, 3)} m apart: at least `
       + `${digits(4 * radius, 3)} m, four times the arrival radius, is needed`);
@@ -80,7 +81,7 @@ export function sheetOf(robot, rules) {
       + `${(tolerance * DEGREES).toFixed(0)} deg`);
   }
   const oldest = delay + rules.margin, { usual } = rules,
-      error = Math.hypot(robot.sigma, armOf(robot) * robot.compass / DEGREES),
+      error = Math.hypot(robot.sigma, swing, rules.scatter * vMax * delay),
       aged = rules.margin * Math.min(acceleration * robot.fix_period, speed),
       jump = Math.max(rules.close, rules.steady * error + aged);
   const k = rate / vMax, near = (rho) => Math.log1p(-Math.exp(-k * rho)),
@@ -168,19 +169,20 @@ export function certified(ends, { share }) {
 }
 
 // The files for the robot, by name, out of their templates.
-export function filesOf(robot, told, templates) {
+export function filesOf(robot, told, rules, templates) {
   const number = (value) => {
     const text = Number(value.toPrecision(6)).toFixed(10).replace(/0+$/, '');
     return text.endsWith('.') ? `${text}0` : text;
   };
-  const words = {}, { gains, wheels, turn, rules } = told;
-  for (const [part, values] of Object.entries({ robot, sheet: told, gains, wheels, turn, rules }))
+  const words = {}, { gains, wheels, turn } = told;
+  for (const [part, values] of Object.entries({ robot, sheet: told, gains, wheels, turn, rules: told.rules }))
     for (const [name, value] of Object.entries(values))
       if (typeof value === 'number') words[`${part}.${name}`] = number(value);
   for (const name of ['start_lat', 'start_lon', 'goal_lat', 'goal_lon']) {
     words[`robot.${name}_e7`] = String(Math.floor(1e7 * robot[name] + 0.5));
     words[`robot.${name}`] = robot[name].toFixed(7);
   }
+  words['robot.compass_sigma'] = number(Math.max(robot.compass, rules.surest) / DEGREES);
   return Object.fromEntries(Object.entries(templates).map(([name, text]) =>
     [name, text.replace(/@([a-z0-9_.]+)@/g, (_, word) => words[word])]));
 }
