@@ -43,6 +43,11 @@ def test_a_refusal_names_what_is_wrong(message):
     assert str(refusal.value) == message
 
 
+def test_fields_that_are_no_robot_are_refused_by_name():
+    with pytest.raises(ValueError, match=r"^robot = \{'track_width': 0.4\} is not allowed"):
+        sheet({"track_width": 0.4})
+
+
 def robots(count, seed=3):
     """Robots of many kinds whose sheet there is."""
     rng = np.random.default_rng(seed)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 import wmrlib as wmr
-from wmrlib.checks import book_extra, scalar
+from wmrlib.checks import book_extra, instance, scalar
 from wmrlib.receiver import normals
 from wmrrobot.monitor import Rules
 
@@ -160,8 +160,10 @@ def sheet(robot: Robot) -> Sheet:
 
     Raises
     ------
-    ValueError : a field out of its bounds, or fields that don't go together; it is named
+    ValueError : another type, a field out of its bounds, or fields that don't go together; it is
+        named
     """
+    instance("robot", robot, Robot)
     for name, (low, high, unit) in BOUNDS.items():
         value = scalar(name, getattr(robot, name))
         if not low <= value <= high or (name == "quality" and value % 1):
