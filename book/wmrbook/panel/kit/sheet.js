@@ -175,7 +175,8 @@ export function filesOf(robot, told, rules, templates) {
     return text.endsWith('.') ? `${text}0` : text;
   };
   const words = {}, { gains, wheels, turn } = told;
-  for (const [part, values] of Object.entries({ robot, sheet: told, gains, wheels, turn, rules: told.rules }))
+  const parts = { robot, sheet: told, gains, wheels, turn, rules: told.rules };
+  for (const [part, values] of Object.entries(parts))
     for (const [name, value] of Object.entries(values))
       if (typeof value === 'number') words[`${part}.${name}`] = number(value);
   for (const name of ['start_lat', 'start_lon', 'goal_lat', 'goal_lon']) {
