@@ -75,7 +75,9 @@ export function putSlider(row, says, stops, { get, set }) {
   slider.addEventListener('input', () => set(stops[Math.round(Number(slider.value))]));
   onArrows(slider, ([across, up]) => set(stepped(stops, get(), across + up)));
   return (value, text) => {
-    slider.value = String(Number.isFinite(value) ? placeOf(stops, value) : 0);
+    const place = Number.isFinite(value) ? placeOf(stops, value) : 0;
+    slider.value = String(place);
+    slider.style.setProperty('--share', String(place / (stops.length - 1)));
     slider.setAttribute('aria-valuetext', text);
   };
 }
@@ -84,6 +86,31 @@ export function putSlider(row, says, stops, { get, set }) {
 export const fromWords = (text) =>
     (/^[-+−]?(?![1-9]\d{0,2},\d{3}$)(\d+[.,]?\d*|[.,]\d+)(e[-+]?\d+)?$/i.test(text.trim())
     ? Number(text.trim().replace(',', '.').replace('−', '-')) : NaN);
+
+/**
+ * A number that can be typed over; `refuse` is told, in a sentence, of what is none. Returns what
+ * shows a text in it.
+ * @param {HTMLElement} parent @param {string} called
+ * @param {{ set(value: number): void, refuse(sentence: string): void }} hand
+ */
+export function putTyped(parent, called, { set, refuse }) {
+  const it = made(parent, 'input',
+      { className: 'wmr-typed', inputMode: 'decimal', autocomplete: 'off' },
+      { 'aria-label': `${called}, typed` });
+  it.addEventListener('change', () => {
+    const value = fromWords(it.value);
+    if (Number.isFinite(value)) set(value);
+    else refuse(`${called} = ${it.value} is not allowed: a number is needed. The value stays as it ` +
+        `was.`);
+    it.value = it.dataset.shown;
+  });
+  it.addEventListener('keydown', (event) => event.stopPropagation());
+  return (text) => { if (it.dataset.shown !== text) it.value = it.dataset.shown = text; };
+}
+
+/** A unit as it is read out: "1/s" is "1 per s". @param {string} unit */
+export const spokenUnit = (unit) =>
+    unit.replace(/^1\/?/, (each) => (each === '1' ? '' : 'per '));
 
 // `change(values)` is told what a hand does, `refuse(sentence)` what is typed that is no number.
 // Returns what shows a state.
@@ -115,18 +142,8 @@ export function buildControls(root, setup, { change, refuse }) {
     const showSlider = putSlider(it, `${symbol}, ${tip}`, stops, {
       get: () => now[name], set: (value) => change({ [name]: value }),
     });
-    const typed = made(it, 'input', { className: 'wmr-typed', inputMode: 'decimal' },
-        { 'aria-label': `${text}, typed` });
-    typed.addEventListener('change', () => {
-      const value = fromWords(typed.value);
-      if (!Number.isFinite(value))
-        refuse(`${text} = ${typed.value} is not allowed: a number is needed. The value stays as ` +
-            `it was.`);
-      else change({ [name]: value });
-      typed.value = typed.dataset.shown;
-    });
-    typed.addEventListener('keydown', (event) => event.stopPropagation());
-    return { name, it, showSlider, typed, unit };
+    const showTyped = putTyped(it, text, { set: (value) => change({ [name]: value }), refuse });
+    return { name, it, showSlider, showTyped, unit };
   });
   root.append(...folds.map(({ fold }) => fold)); // below the others
   return (state) => {
@@ -145,12 +162,11 @@ export function buildControls(root, setup, { change, refuse }) {
       }
       if (select.value !== value) select.value = value;
     }
-    for (const { name, it, showSlider, typed, unit } of sliders) {
+    for (const { name, it, showSlider, showTyped, unit } of sliders) {
       const value = state[name], text = inWords(value);
       it.hidden = !applies(name, state, setup);
-      const spoken = unit.replace(/^1\/?/, (each) => (each === '1' ? '' : 'per '));
-      showSlider(value, `${text} ${spoken}`.trim());
-      if (typed.dataset.shown !== text) typed.value = typed.dataset.shown = text;
+      showSlider(value, `${text} ${spokenUnit(unit)}`.trim());
+      showTyped(text);
     }
   };
 }

@@ -8,10 +8,15 @@ const SYMBOLS = { rho: 'ρ', alpha: 'α', theta: 'θ', omega: 'ω', beta: 'β', 
 const NAMED = RegExp(`\\b((?:k|v)_(?:${Object.keys(SYMBOLS).join('|')}|max|x|y)|${
   Object.keys(SYMBOLS).join('|')})\\b`);
 
-// A symbol such as k_alpha.
+/** The colour of a symbol such as k_alpha, or ''. @param {string} name */
+export function roleOf(name) {
+  const [stem, index] = name.split('_');
+  return stem in COLOURS ? stem : index in COLOURS ? index : '';
+}
+
+/** @param {HTMLElement} parent @param {string} name */
 export function putSymbol(parent, name) {
-  const [stem, ...index] = name.split('_'),
-      role = stem in COLOURS ? stem : index[0] in COLOURS ? index[0] : '';
+  const [stem, ...index] = name.split('_'), role = roleOf(name);
   const it = made(parent, 'i', { className: 'live-symbol', textContent: SYMBOLS[stem] || stem });
   if (role) { it.style.color = `var(--${role})`; it.dataset.role = role; }
   if (index.length) made(it, 'sub', { textContent: SYMBOLS[index[0]] || index.join(' ') });
