@@ -1,18 +1,16 @@
 """The log of a receiver at rest, against published numbers, theory and a second method."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
+from logs import TEN_MINUTES
 from scipy.linalg import toeplitz
 from scipy.optimize import minimize_scalar
 from scipy.stats import multivariate_normal
 
 import wmrlib as wmr
 from wmrbook.chapters import at_rest
-
-LOG = Path(__file__).parent.parent / "notebooks" / "data" / "ublox-zed-f9p-standing.ubx"
 
 
 def test_allan_deviation_of_the_thousand_points_of_nist():
@@ -88,7 +86,7 @@ def test_eleven_minutes_bound_a_memory_of_minutes_from_below_only():
         assert 0.9 <= right <= 0.99  # of 95 %
         open_ended = np.mean([fit.longest == math.inf for fit in fits])
         assert (open_ended < 0.1) if memory == 30.0 else (open_ended > 0.8)
-    track = wmr.read_track(LOG)
+    track = wmr.read_track(TEN_MINUTES)
     middle = wmr.GeoPoint(lat=track.points.lat.mean(), lon=track.points.lon.mean())
     for error in wmr.local_position(middle, track.points):
         every, tenth = (at_rest.fit_receiver(error[::k], float(k)) for k in (1, 10))

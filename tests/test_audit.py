@@ -2,6 +2,7 @@
 
 import math
 from functools import cache
+from pathlib import Path
 
 import nbformat
 import pytest
@@ -283,6 +284,18 @@ def folder(tmp_path):
     for name, cells in chapters.items():
         nbformat.write(new_notebook(cells=cells), tmp_path / f"{name}.ipynb")
     return tmp_path
+
+
+def test_each_row_is_shown_by_a_cell():
+    chapters = Path(__file__).parents[1] / "notebooks"
+    assert audit.missing([*all_rows().values()], audit.places(chapters)) == []
+
+
+def test_without_the_chapters_there_are_no_places(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert audit.places() == {}
+    rows = [all_rows()["eq-24"]]
+    assert "in no chapter of this folder" in audit.Table(rows, audit.places()).markdown()
 
 
 def test_places_finds_the_tagged_cells_and_the_headings_above(folder):

@@ -9,7 +9,8 @@ import numba
 import numpy as np
 import pytest
 import sympy as sp
-from assignments import ROOT, run_cell
+from assignments import run_cell
+from logs import STANDING
 
 import wmrbook.audit
 import wmrlib as wmr
@@ -103,8 +104,7 @@ def test_the_bowl_falls_along_wmrlib_s_robot():
 
 
 def test_the_sentences_are_those_of_the_log():
-    log = ROOT / "notebooks/data/ublox5-standing.nmea"
-    text = log.read_text(encoding="utf-8", errors="replace")
+    text = STANDING.read_text(encoding="utf-8", errors="replace")
     assert all(f"${body}*" in text for body in routes.BODIES)
 
 

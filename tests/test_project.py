@@ -43,13 +43,16 @@ def pins(lock):
 
 @pytest.mark.parametrize(
     ("lock", "extras"),
-    [("environment.txt", ["book"]), ("tests/environment.txt", ["book", "site", "test"])],
+    [
+        ("environment.txt", ["book", "chapters"]),
+        ("tests/environment.txt", ["book", "chapters", "site", "test"]),
+    ],
 )
 def test_a_lock_pins_every_direct_dependency_within_its_range(lock, extras):
     assert pins(lock) <= pins("tests/environment.txt")
     optional = PROJECT["optional-dependencies"]
     wanted = [*PROJECT["dependencies"], *(line for extra in extras for line in optional[extra])]
-    for requirement in map(Requirement, wanted):
+    for requirement in map(Requirement, set(wanted) - {"wmrlib[chapters]"}):
         versions = [version for name, version in pins(lock) if name == requirement.name.lower()]
         assert versions, f"{requirement.name} is not in {lock}"
         assert all(version in requirement.specifier for version in versions), requirement
@@ -164,7 +167,7 @@ def test_without_sympy_the_expressions_say_what_to_install():
 
 def test_without_the_books_packages_each_chapters_first_cell_says_what_to_install():
     """That wmrbook is imported first is ruff's to check: see notebooks/ruff.toml."""
-    optional = map(Requirement, PROJECT["optional-dependencies"]["book"])
+    optional = map(Requirement, PROJECT["optional-dependencies"]["chapters"])
     names = {requirement.name for requirement in optional}
     packages = {it for it, of in packages_distributions().items() if names & set(of)}
     cells = [cell for name in CHAPTERS for cell in code(name)]
@@ -174,7 +177,7 @@ def test_without_the_books_packages_each_chapters_first_cell_says_what_to_instal
     assert {"control", "sympy"} < used
     hidden = "import sys\n" + "\n".join(f"sys.modules[{it!r}] = None" for it in packages)
     tried = [
-        f"try:\n    exec({code(name)[0].source!r})\nexcept ImportError as error:\n    print(error)"
+        f"try:\n    exec({code(name)[1].source!r})\nexcept ImportError as error:\n    print(error)"
         for name in CHAPTERS
     ]
     command = [sys.executable, "-c", "\n".join([hidden, *tried])]

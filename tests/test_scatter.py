@@ -1,20 +1,18 @@
 """The scatter of a receiver that does not move, against the ellipsoid and by property."""
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 from geographiclib.geodesic import Geodesic
+from logs import STANDING
 
 import wmrlib as wmr
 from wmrbook.scatter import stationary_scatter
 
-LOG = Path(__file__).parent.parent / "notebooks" / "data" / "ublox5-standing.nmea"
-
 
 def test_scatter_of_the_log_against_the_ellipsoid():
-    track = wmr.read_track(LOG)
+    track = wmr.read_track(STANDING)
     scatter = stationary_scatter(track)
     lines = [
         Geodesic.WGS84.Inverse(scatter.mean.lat, scatter.mean.lon, lat, lon)

@@ -8,19 +8,18 @@ from collections import Counter
 from datetime import UTC, datetime, timedelta, timezone
 from functools import reduce
 from operator import xor
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from logs import STANDING
 
 import wmrlib as wmr
 from wmrlib.tracks import Count
 from wmrlib.tracks.fixes import Fixes, Reported
 
-LOG = Path(__file__).parent.parent / "notebooks" / "data" / "ublox5-standing.nmea"
 GPX_11 = "{http://www.topografix.com/GPX/1/1}"
 BEGIN = datetime(2026, 3, 1, 12, 0, 0, tzinfo=UTC)
 
@@ -134,11 +133,11 @@ def test_a_time_out_of_order_costs_its_own_position_only(segments):
 
 
 def test_the_real_log(read):
-    track = wmr.read_track(LOG)
+    track = wmr.read_track(STANDING)
     assert (track.source, track.t.tolist()) == ("NMEA", list(range(9)))
     assert track.points.lat[0] == pytest.approx(LAT, abs=1e-12)
     assert track.points.lon[-1] == pytest.approx(10 + 49.4885 / 60, abs=1e-12)
-    lines = LOG.read_text(encoding="utf-8").splitlines()
+    lines = STANDING.read_text(encoding="utf-8").splitlines()
     starts = ["#" if line[:1] == "#" else line[3:6] for line in lines]
     assert dict(track.report.skipped) == {
         "comment": (starts.count("#"), 1),

@@ -3,17 +3,16 @@
 import math
 import subprocess
 import sys
-from pathlib import Path
 from struct import pack
 
 import numpy as np
 import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
+from logs import TEN_MINUTES
 
 import wmrlib as wmr
 
-LOG = Path(__file__).parent.parent / "notebooks" / "data" / "ublox-zed-f9p-standing.ubx"
 KINDS = {"pvt": b"\x01\x07", "place": b"\x01\x14", "baseline": b"\x01\x3c", "dop": b"\x01\x04"}
 GGA = b"$GPGGA,104706.00,5405.6081,N,01049.4791,E,1,08,1.1,40.8,M,43.6,M,,0000*5F\r\n"
 NO_PLACE, DAMAGED = "message without a position", "message that is damaged or cut off"
@@ -67,15 +66,15 @@ def read(tmp_path_factory):
 
 def test_eleven_minutes_of_a_receiver_at_rest():
     """The sentences alone, read as text, say the same."""
-    track = wmr.read_track(LOG)
+    track = wmr.read_track(TEN_MINUTES)
     assert (track.source, len(track), track.t[-1]) == ("NMEA", 655, 654.0)
     assert dict(track.report.skipped) == {
         "stretch of bytes that is no message": (1, 0),
-        NO_PLACE: (655 + 654 + 654, LOG.read_bytes().index(b"\xb5b")),
-        "same epoch again": (2 * 655, LOG.read_bytes().index(b"$GNRMC")),
-        "other sentence": (655, LOG.read_bytes().index(b"$GNVTG")),
+        NO_PLACE: (655 + 654 + 654, TEN_MINUTES.read_bytes().index(b"\xb5b")),
+        "same epoch again": (2 * 655, TEN_MINUTES.read_bytes().index(b"$GNRMC")),
+        "other sentence": (655, TEN_MINUTES.read_bytes().index(b"$GNVTG")),
     }
-    gga = [line for line in LOG.read_bytes().split(b"\r\n") if b"$GNGGA" in line]
+    gga = [line for line in TEN_MINUTES.read_bytes().split(b"\r\n") if b"$GNGGA" in line]
     fields = [line[line.index(b"$GNGGA") :].decode().split(",") for line in gga]
     assert [float(field[8]) for field in fields] == track.hdop.tolist()
     assert [float(field[7]) for field in fields] == track.satellites.tolist()
@@ -166,7 +165,7 @@ def test_no_damage_gives_a_wrong_position(read, changes, place, garbage):
 def test_pyubx2_is_needed_for_nav_pvt_alone(tmp_path):
     (tmp_path / "a.ubx").write_bytes(pvt())
     code = f"""import sys; sys.modules["pyubx2"] = None; import wmrlib as wmr
-assert len(wmr.read_track({str(LOG)!r})) == 655
+assert len(wmr.read_track({str(TEN_MINUTES)!r})) == 655
 wmr.read_track({str(tmp_path / "a.ubx")!r})"""
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     wanted = 'ImportError: UBX needs pyubx2: pip install ".[book]" in the repository'

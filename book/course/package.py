@@ -21,10 +21,10 @@ sys.path.append(str(ROOT / "book" / "tools"))
 from build import without_solutions  # noqa: E402
 
 FILES = (
-    *("LICENSE", "environment.txt", "pyproject.toml", "book/chapter13_laws.json"),
+    *("LICENSE", "environment.txt", "pyproject.toml"),
     "notebooks/robot_in_one_page.py",  # two chapters point to it
 )
-FOLDERS = "book/lab", "notebooks/data"
+FOLDERS = ("book/lab",)
 CLOSED = ROOT / "book" / "wmrbook" / "questions"  # it computes the keys of the concept questions
 LINK = re.compile(r"\[([^\]]+)\]\(\.\./book/[^)]*\)")  # to pages that are not in the zip
 START = """# From two GPS points to a parked robot

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import reduce
 from operator import xor
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,13 +11,13 @@ import pytest
 pytest.importorskip("anywidget", reason="the panel needs anywidget")
 from faults import crowded, violations
 from host import mounted
+from logs import STANDING, TEN_MINUTES
 
 import wmrlib as wmr
 from wmrbook.panel import MyRobot
 from wmrrobot.exports import along, at_rest, files
 from wmrrobot.sheets import RECEIVERS, RUNS, Robot, certificate, sheet, sure
 
-DATA = Path(__file__).parents[2] / "notebooks" / "data"
 DONE = "() => document.querySelector('.my-robot').dataset.done === 'true'"
 SLOW = {"track_width": 1.0, "acceleration": 0.2, "max_speed": 2.0}
 QUICK = {"track_width": 0.2, "acceleration": 5.0, "dead_band": 0.0, "delay": 0.0}
@@ -164,7 +163,7 @@ def test_a_log_fills_in_the_way_and_the_scatter(emptied_page, tmp_path):
     made = tmp_path / "made.nmea"
     made.write_bytes(log_of_all_kinds().encode())
     assert len(wmr.read_track(made)) == 17
-    for path in (made, *DATA.glob("ublox*")):
+    for path in (made, STANDING, TEN_MINUTES):
         track = wmr.read_track(path)
         for label, filled in (("from the log of a drive", along), ("from a log at rest", at_rest)):
             emptied_page.get_by_label(label).set_input_files(path)

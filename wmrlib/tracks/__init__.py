@@ -112,7 +112,7 @@ def read_track(path: str | os.PathLike) -> Track:
     Examples
     --------
     >>> import wmrlib as wmr
-    >>> wmr.read_track("notebooks/data/ublox5-standing.nmea")
+    >>> wmr.read_track("book/wmrbook/data/ublox5-standing.nmea")
     <Track: 9 positions from NMEA, over 8 s; 77 not used>
     """
     if not isinstance(path, str | os.PathLike):

@@ -29,13 +29,14 @@ class Place(NamedTuple):
     cell: int
 
 
-def places(folder: str | Path = ".") -> dict[str, list[Place]]:
+def places(folder: str | Path | None = None) -> dict[str, list[Place]]:
     """From a row's item to the cells tagged ``audit:item`` in the chapters of a folder.
 
-    Raises ValueError if the folder holds no notebook whose name begins with a chapter's number.
+    By default the folder is the one in which Python runs, and it may lack the chapters.
+    Raises ValueError if another holds no notebook whose name begins with a chapter's number.
     """
-    notebooks = sorted(Path(folder).glob("[0-9][0-9]_*.ipynb"))
-    if not notebooks:
+    notebooks = sorted(Path(folder or ".").glob("[0-9][0-9]_*.ipynb"))
+    if folder and not notebooks:
         needed = "one with notebooks named like 04_lyapunov.ipynb is needed"
         raise ValueError(f"folder = {str(folder)!r} is not allowed: {needed}")
     places: dict[str, list[Place]] = {}
@@ -103,4 +104,4 @@ def _linked(cells: Sequence[Place]) -> str:
     for (file, chapter, heading), among in numbers.items():
         title = re.sub(r"([\[\]])", r"\\\1", heading)
         links.append(f"[{chapter}, {title}]({file}), cell {', '.join(among)}")
-    return "; ".join(links) or "no cell"
+    return "; ".join(links) or "in no chapter of this folder"

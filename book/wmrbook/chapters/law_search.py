@@ -1,6 +1,6 @@
 """Chapter 13's search: each law with its own best gains, on two robots and with two seeds.
 
-    python -m wmrbook.chapters.law_search    # minutes: writes book/chapter13_laws.json
+    python -m wmrbook.chapters.law_search    # minutes: writes wmrbook/data/chapter13_laws.json
 
 The chapter shows what is stored, and computes one row of it anew.
 """
@@ -10,13 +10,13 @@ from __future__ import annotations
 import itertools
 import json
 import math
-from pathlib import Path
 
 import numpy as np
 
 import wmrlib as wmr
+from wmrbook import data
 
-FILE = Path(__file__).resolve().parents[2] / "chapter13_laws.json"
+FILE = data.path("chapter13_laws.json")
 LAWS = "corrected", "printed", "aicardi", "graceful", "barrier"
 ROBOTS = (wmr.Wheels(0.4, 0.5), 0.02), (wmr.Wheels(0.3, 1.0), 0.05)  # and how often they sample, s
 SPANS = (1, 2), (2, 5), (5, 10)  # m from the goal
@@ -81,14 +81,9 @@ def row(span: tuple[int, int], radius: float) -> np.ndarray:
     return np.reshape(times, (len(LAWS), 4, 3))
 
 
-def read(file: str | Path = FILE) -> Times:
-    """The stored rows, by the span of starts and the radius.
-
-    Raises FileNotFoundError, with a sentence, where the file is not beside the chapter.
-    """
-    if not Path(file).exists():
-        raise FileNotFoundError(f"this chapter needs the file book/{FILE.name} of the repository")
-    rows = json.loads(Path(file).read_text(encoding="utf-8"))
+def read() -> Times:
+    """The stored rows, by the span of starts and the radius."""
+    rows = json.loads(FILE.read_text(encoding="utf-8"))
     return {
         (tuple(item["span"]), item["radius"]): np.array([*item["seconds"].values()], float)
         for item in rows

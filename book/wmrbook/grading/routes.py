@@ -14,7 +14,7 @@ from wmrbook.grading._hints import Hint, close, expect, own_work, rule_out, slip
 from wmrlib.geodesy import EARTH_RADIUS_M
 
 DEGREE = math.radians(1.0) * EARTH_RADIUS_M  # of latitude, m
-BODIES = (  # of the log in notebooks/data; its receiver stood in northern Germany
+BODIES = (  # of the log in wmrbook/data; its receiver stood in northern Germany
     "GPRMC,104706.000,A,5405.6081,N,01049.4791,E,0.24,18.02,240709,,,A",
     "GPGGA,104706.000,5405.6081,N,01049.4791,E,1,08,1.1,40.8,M,43.6,M,,0000",
     "GPVTG,18.02,T,,M,0.24,N,0.4,K,A",
