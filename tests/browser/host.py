@@ -102,10 +102,15 @@ class Panel:
         return self.state().get(name)
 
     def control(self, name):
-        return self.page.locator(f"[data-control={name}]")
+        return self.reached(self.page.locator(f"[data-control={name}]"))
 
     def slider(self, name):
         return self.control(name).locator(".wmr-slider")
+
+    def reached(self, locator):
+        """What may be behind "More", once that is open."""
+        locator.evaluate("it => it.closest('.wmr-more')?.setAttribute('open', '')")
+        return locator
 
     def picture(self) -> str:
         """A fingerprint of the pixels of the canvases that are shown."""
@@ -129,7 +134,7 @@ class Panel:
         return self.page.locator(".wmr-trouble").count() > 0
 
     def click(self, act: str):
-        self.page.locator(f"[data-do={act}]").click()
+        self.reached(self.page.locator(f"[data-do={act}]")).click()
         return self.settled()
 
     def press(self, name: str):

@@ -415,7 +415,7 @@ def test_a_run_can_be_taken_along_as_python_table_and_picture(emptied_page, tmp_
         assert (theirs.law, theirs.method) == (ours.law, ours.method)
         np.testing.assert_array_equal([theirs.x, theirs.omega], [ours.x, ours.omega])
         with emptied_page.expect_download() as saved:
-            emptied_page.locator("[data-do=csv]").click()
+            panel.reached(emptied_page.locator("[data-do=csv]")).click()
         rows = list(csv.DictReader(saved.value.path().read_text(encoding="utf-8").splitlines()))
         assert len(rows) == len(ours)
         for name in ("t", "x", "y", "rho", "v", "omega", "V"):

@@ -251,6 +251,7 @@ def test_python_follows_the_panel_which_follows_python(lab, browser_page):
     page.keyboard.press("Enter")
     assert_python_sees(page, "h=3.21")
 
+    page.get_by_text("More", exact=True).click()
     page.locator("[data-do=reset]").click()
     assert_python_sees(page, "k_rho=2.0, k_alpha=1.0, h=0.3")
 

@@ -10,7 +10,7 @@ const CHARTS = [
   { title: 'v [m/s]', lines: [{ role: 'path', of: (run) => run.v }] },
   { title: 'ω [rad/s]', lines: [{ role: 'path', of: (run) => run.omega }] },
   {
-    title: 'position error [m]',
+    title: 'error [m]',
     lines: [
       { role: 'path', of: (run) => difference(run.goalX, run.x), tag: 'x' },
       { role: 'ink', of: (run) => difference(run.goalY, run.y), tag: 'y', dash: [7, 5] },

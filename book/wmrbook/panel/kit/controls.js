@@ -100,8 +100,8 @@ export function putTyped(parent, called, { set, refuse }) {
   it.addEventListener('change', () => {
     const value = fromWords(it.value);
     if (Number.isFinite(value)) set(value);
-    else refuse(`${called} = ${it.value} is not allowed: a number is needed. The value stays as it ` +
-        `was.`);
+    else refuse(`${called} = ${it.value} is not allowed: a number is needed. The value stays as ` +
+        'it was.');
     it.value = it.dataset.shown;
   });
   it.addEventListener('keydown', (event) => event.stopPropagation());

@@ -10,16 +10,18 @@ import {
   canLink, copied, csvOf, download, linkOf, pictureOf, pythonOf, stateInLink,
 } from './share.js';
 import { drawCharts, endOf, timeAxis } from './charts.js';
+import { putGains } from './gains.js';
 import { drawScene, hasSight, marksOf, nearestOf, viewOf, zoomOf } from './scene.js';
 import { inDegrees, written } from './style.js';
 import { forgetNames, repainted, sizeOf } from './surface.js';
 import { within } from './numbers.js';
-import { FARTHEST, NEAREST, presetValues, runOf, settingsOf } from './settings.js';
+import { FARTHEST, NEAREST, applies, presetValues, runOf, settingsOf } from './settings.js';
 import { summarise } from './simulate.js';
 import { widget } from './widget.js';
 
 const LASTS = 8; // s that playing a run takes at most
 const GAINS = ['k_rho', 'k_alpha', 'h', 'v_max'];
+const STEERING = ['k_rho', 'k_alpha', 'h', 'k_x', 'k_y', 'k_heading']; // below the picture
 const RESTING = 0.3; // where on the run the cursor stands until somebody moves it
 
 const RUN_BUTTONS = [ // what each does, is called, and says
@@ -45,15 +47,12 @@ function scaffold(el) {
   root.innerHTML = `
     <div class="wmr-stage">
       <div class="wmr-status"></div>
-      <div class="wmr-figures" role="list"></div>
-      <div class="wmr-controls"><div class="wmr-rows" role="group" aria-label="settings"></div>
-        <div class="wmr-bar">
-          ${RUN_BUTTONS.map(button).join('')}</div></div>
       <div class="wmr-view">
         <div class="wmr-bar"><div class="wmr-polar"></div></div>
         <div class="wmr-plane"><canvas class="wmr-scene" role="img"></canvas>
           <div class="wmr-bar wmr-zoom">${ZOOM_BUTTONS.map(button).join('')}</div></div>
-        <div class="wmr-bar">${button(['play', 'Play', 'drive along the path'])}
+        <div class="wmr-steering"></div>
+        <div class="wmr-bar wmr-play">${button(['play', 'Play', 'drive along the path'])}
           <input type="range" class="wmr-time" min="0" max="1" step="any"
             aria-label="time cursor"><output class="wmr-clock"></output></div>
       </div>
@@ -61,7 +60,11 @@ function scaffold(el) {
         <div class="wmr-bar"><div class="wmr-key"></div></div>
         <canvas class="wmr-charts" role="img"></canvas>
         <canvas class="wmr-map" role="img" tabindex="0" hidden></canvas>
+        <div class="wmr-figures" role="list"></div>
       </div>
+      <details class="wmr-more"><summary>More</summary>
+        <div class="wmr-rows" role="group" aria-label="settings"></div>
+        <div class="wmr-bar">${RUN_BUTTONS.map(button).join('')}</div></details>
     </div>
     <div class="wmr-aside" role="status" aria-live="polite"></div>`;
   return root;
@@ -85,7 +88,16 @@ function render({ model, el }) {
     model.save_changes();
   }
   const schedule = () => { if (!frame) frame = requestAnimationFrame(draw); };
-  const showControls = buildControls(find('.wmr-rows'), setup, {
+  const steers = ([name]) => STEERING.includes(name);
+  const refuse = (sentence) => { state.said = sentence; schedule(); };
+  const showGains = putGains(find('.wmr-steering'), setup.sliders.filter(steers).map(
+      ([name, text, says, low, high, step]) => {
+        const [, unit] = text.match(/\[(.*)\]/);
+        return { name, says, low, high, step, unit: unit === '1' ? '' : unit };
+      }),
+      { get: (name) => values()[name], set: (name, value) => write({ [name]: value }), refuse });
+  const others = { ...setup, sliders: setup.sliders.filter((each) => !steers(each)) };
+  const showSettings = buildControls(find('.wmr-rows'), others, {
     change({ preset, ...changed }) {
       if (preset > 0) {
         const before = values().moving, left = state.run && state.run.rho[cursorOf(state.run)];
@@ -103,10 +115,16 @@ function render({ model, el }) {
         if (state.playing) state.playing = { from: state.time, since: performance.now() };
       }
       else write(changed);
-      showControls(values()); // the handle goes to the stop that was taken
+      showControls(); // the handle goes to the stop that was taken
     },
-    refuse(sentence) { state.said = sentence; schedule(); },
+    refuse,
   });
+  function showControls() {
+    const now = values();
+    showSettings(now);
+    showGains(Object.fromEntries(STEERING.filter((name) => applies(name, now, setup))
+        .map((name) => [name, now[name]])));
+  }
   const placeHandles = buildHandles(find('.wmr-plane'), {
     get: (name) => values()[name], set: (name, pose) => write({ [name]: pose }),
         view: () => state.view,
@@ -229,7 +247,7 @@ function render({ model, el }) {
     mapCanvas.hidden = !mapShown();
     state.said = '';
     stale = true;
-    showControls(values());
+    showControls();
     schedule();
   }
 

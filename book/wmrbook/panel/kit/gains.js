@@ -4,13 +4,13 @@
 //   const show = putGains(parent, gains, { get, set, refuse });
 //   show(values);
 //
-// `gains` are { name, says, low, high, step, unit }: `name` as in Python ('k_alpha'), `says` what it
-// does, in words, for a screen reader and as a tip, and `unit` as '1/s', or '' for none. Without a
-// `step` the slider stops at round numbers. `get(name)` is the value now; `set(name, value)` is
-// called for each move of a hand and for a number that was typed; `refuse(sentence)` for anything
-// else that was typed. `show(values)` puts the rows to values by name, and hides a row whose name
-// `values` does not have. Rows carry data-control=NAME, their inputs the classes wmr-slider and
-// wmr-typed.
+// `gains` are { name, says, low, high, step, unit }: `name` as in Python ('k_alpha'), `says` in
+// words what it does, for a screen reader and as a tip, and `unit` as '1/s', or '' for none.
+// Without a `step` the slider stops at round numbers. `get(name)` is the value now; `set(name,
+// value)` is called for each move of a hand and for a number that was typed; `refuse(sentence)` for
+// anything else that was typed. `show(values)` puts the rows to values by name, and hides a row
+// whose name `values` does not have. Rows carry data-control=NAME, their inputs the classes
+// wmr-slider and wmr-typed.
 
 import { putSlider, putTyped, spokenUnit, stopsOf } from './controls.js';
 import { inWords } from './style.js';

@@ -5,12 +5,13 @@ import { made } from './hands.js';
 
 const SYMBOLS = { rho: 'ρ', alpha: 'α', theta: 'θ', omega: 'ω', beta: 'β', gamma: 'γ', lambda: 'λ',
     kappa: 'κ', sigma: 'σ', phi: 'φ', delta: 'δ' };
+const SHORT = { heading: 'h' }; // k_heading is k_h in formulas
 const NAMED = RegExp(`\\b((?:k|v)_(?:${Object.keys(SYMBOLS).join('|')}|max|x|y)|${
   Object.keys(SYMBOLS).join('|')})\\b`);
 
 /** The colour of a symbol such as k_alpha, or ''. @param {string} name */
 export function roleOf(name) {
-  const [stem, index] = name.split('_');
+  const [stem, long] = name.split('_'), index = SHORT[long] || long;
   return stem in COLOURS ? stem : index in COLOURS ? index : '';
 }
 
@@ -19,7 +20,8 @@ export function putSymbol(parent, name) {
   const [stem, ...index] = name.split('_'), role = roleOf(name);
   const it = made(parent, 'i', { className: 'live-symbol', textContent: SYMBOLS[stem] || stem });
   if (role) { it.style.color = `var(--${role})`; it.dataset.role = role; }
-  if (index.length) made(it, 'sub', { textContent: SYMBOLS[index[0]] || index.join(' ') });
+  if (index.length) made(it, 'sub', { textContent: SYMBOLS[index[0]] || SHORT[index[0]]
+    || index.join(' ') });
 }
 
 // A text in which symbols have their names and degrees are "deg".
