@@ -55,6 +55,22 @@ def test_v_is_red_where_it_rises_and_only_there():
     assert only.get_legend() is None  # nothing to tell apart
 
 
+@pytest.mark.parametrize("size", [(2.0, 2.0), (4.0, 12.0), (20.0, 3.0)])
+def test_a_figure_fills_the_text_column_with_letters_of_nine_points(size):
+    """A page shows it 690 px wide; letters of 9 pt are 12 px high there."""
+    figure, axes = style.new_figure(*size)
+    axes.plot([0.0, 1.0], [0.0, 5.0])
+    axes.set(aspect="equal", title="a title", xlabel="x [m]", ylabel="y [m]")
+    shown = style.Picture(figure, "A line.")
+    shown.svg()  # which lays it out
+    width = figure.get_figwidth()
+    smallest = min(text.get_fontsize() for text in figure.findobj(style.Text))
+    assert 12.0 <= smallest * 690 / (72 * width) <= 17.0
+    bottom, top = axes.get_ylim()
+    assert bottom < 0.0 < 5.0 < top
+    assert axes.get_position().width > 0.8  # equal scales, over all of the width
+
+
 def test_an_inset_shows_the_end_of_the_path_around_the_goal():
     (inset,) = figures.path(driven(), near=2.0).figure.axes[0].child_axes
     goal = driven().goal

@@ -15,8 +15,7 @@ addEventListener('load', () => {
       }
     };
     const look = () => {
-      button.hidden = Math.min(image.getAttribute('width') || parseFloat(image.style.width), LARGE)
-          < 1.15 * box.clientWidth;
+      button.hidden = LARGE < 1.15 * box.clientWidth;
     };
     button.setAttribute('aria-pressed', false);
     button.setAttribute('aria-label', `Larger: ${words}`);

@@ -31,11 +31,9 @@ from sphinx.highlighting import PygmentsBridge
 from wmrbook.figures.style import SVG_URL, darkened
 
 FIGURE = re.compile(
-    rf'<img alt="(?P<alt>[^"]*)" width="(?P<width>\d+)" src="{re.escape(SVG_URL)}(?P<svg>[^"]*)"'
+    rf'<img alt="(?P<alt>[^"]*)" width="\d+" src="{re.escape(SVG_URL)}(?P<svg>[^"]*)"'
     r'(?: data-motion="(?P<motion>[^"]*)")?>'
 )
-GROWN = 1.27  # letters of a figure are as large as those of the text
-MEASURE = 690  # px, of the column of text
 TAG = re.compile(r"<[^>]+>")
 MODEL = re.compile(r'(?<=")[0-9a-f]{32}(?=": \{"model_name)')
 EMPTY = r"<th\b[^>]*>\s*(?:<p></p>)?\s*</th>"
@@ -88,7 +86,7 @@ def _cell_of(output: nodes.Node) -> nodes.Element:
 
 
 def widen(app, doctree):
-    """Give a panel, as a wide figure or table, all the width that there is.
+    """Give a panel, as a wide table, all the width that there is.
 
     The theme's script then hides the table of contents, which the front page hasn't.
     """
@@ -107,9 +105,7 @@ def show_figures(app, doctree):
     for output in list(doctree.findall(nodes.raw)):
         if not (figure := FIGURE.fullmatch(output.astext().strip())):
             continue
-        svg, width = unquote(figure["svg"]), round(GROWN * int(figure["width"]))
-        if width > MEASURE:
-            _cell_of(output)["classes"].append("full-width")
+        svg = unquote(figure["svg"])
         name = hashlib.sha256(svg.encode()).hexdigest()[:12]
         images = []
         for theme, text in (("light", svg), ("dark", darkened(svg))):
@@ -117,7 +113,7 @@ def show_figures(app, doctree):
             path.parent.mkdir(exist_ok=True)
             path.write_text(text, encoding="utf-8")
             image = nodes.image(uri=f"/_figures/{path.name}", alt=html.unescape(figure["alt"]))
-            image["width"] = f"{width}px"
+            image["width"] = "100%"  # of the column of text
             image["classes"] = [f"only-{theme}", "no-scaled-link"]
             image["loading"] = "lazy"  # hardly ever where the theme hides it; see figures.js
             images.append(image)

@@ -22,6 +22,21 @@ PANEL = '<script type="application/vnd.jupyter.widget-view+json">'
 WIDER = """() => [...document.querySelectorAll('.figure-box')]
     .filter(it => it.scrollWidth > it.clientWidth + 1)
     .map(it => it.querySelector('img').alt.slice(0, 60))"""
+# How a figure, with its buttons, stands to its caption and to the text around it, in pixels.
+FIGURES = """() => [...document.querySelectorAll('.figure-caption')].flatMap(caption => {
+    const cell = caption.previousElementSibling;
+    const image = [...cell.querySelectorAll('.figure-box img')].find(it => it.checkVisibility());
+    const bottom = Math.max(...[...cell.querySelectorAll('.figure-box, .figure-size, .wmr-control')]
+        .filter(it => it.checkVisibility()).map(it => it.getBoundingClientRect().bottom));
+    const figure = image.getBoundingClientRect(), words = caption.getBoundingClientRect();
+    const below = Math.round(words.top - bottom), beside = Math.round(words.left - figure.left);
+    const name = caption.textContent.slice(0, 12), wanting = Math.round(words.width - figure.width);
+    return [
+        [below < 0 || below > 24, `caption ${below} px below ${name}`],
+        [Math.abs(beside) > 1, `caption ${beside} px beside ${name}`],
+        [wanting > 1, `${name} ${wanting} px narrower than the text`],
+    ].filter(([wrong]) => wrong).map(([, text]) => text);
+})"""
 FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 # What scrolls has been given a key, as the theme does 300 ms after the last change of the page;
 # a live figure that is slow to find its headline changes it late.
@@ -63,6 +78,17 @@ def violations(page, root: str = "html", **only) -> list[tuple[str, str]]:
         install_javascript()
         page.add_script_tag(path=MODULES / "axe-core" / "axe.min.js")
     return page.evaluate(ASK, [root, only])
+
+
+def misplaced(page, sizes=SIZES) -> list[str]:
+    """Captions that do not stand right below their figures, and figures narrower than the text."""
+    faults = []
+    for width, height in sizes:
+        page.set_viewport_size({"width": width, "height": height})
+        page.wait_for_function("width => innerWidth === width", arg=width)
+        page.evaluate(FRAME)
+        faults += [f"{width}: {fault}" for fault in page.evaluate(FIGURES)]
+    return faults
 
 
 def of_page(page, sizes=SIZES, themes=("light", "dark")) -> list[tuple[str, str]]:

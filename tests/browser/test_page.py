@@ -13,7 +13,7 @@ from urllib.parse import unquote, urlsplit
 import numpy as np
 import pypdfium2
 import pytest
-from faults import SIZES, of_page
+from faults import SIZES, misplaced, of_page
 from lecturers import leaks
 from live import (
     PATIENCE,
@@ -74,12 +74,13 @@ def test_a_page_opens_without_trouble_and_without_faults(name, scheme, opened, b
     browser_page.emulate_media(color_scheme=scheme)
     browser_page.set_viewport_size({"width": 1366, "height": 768})
     page = opened(name)
-    assert sum(path.stat().st_size for path in map(Path, loaded) if path.is_file()) < 4e6
+    assert sum(path.stat().st_size for path in map(Path, loaded) if path.is_file()) < 4.1e6
     assert page.locator("html").get_attribute("data-theme") == scheme
     assert page.locator("h1:visible").count() == 1
     assert page.locator("mjx-merror, .widget-error").count() == 0
     page.assert_quiet()
     assert page.evaluate(WIDE) == []
+    assert misplaced(page) == []
     every = "EVERY_SIZE" in os.environ  # and both themes
     assert not (of_page(page) if every else of_page(page, SIZES[:1], (scheme,)))
 

@@ -69,6 +69,8 @@ for _path in files("font_source_sans_pro").joinpath("files").iterdir():
     if re.fullmatch(r"SourceSansPro-(Regular|It|Semibold|Bold)\.ttf", _path.name):
         font_manager.fontManager.addfont(str(_path))
 TALLEST = 4.8  # inches: on a slide of 720 px the letters of a figure then have 20 px at least
+# inches: a page shows a figure as wide as its column, 690 px, with letters of 12 to 17 px
+NARROWEST, WIDEST = 7.5, 10.2
 LINES = ("-", "--", ":", "-.")
 CROWD = 300  # shapes in one graph; more are stored as pixels, which take less room
 SVG_URL = "data:image/svg+xml,"
@@ -108,8 +110,9 @@ class Picture:
         self.figure = figure
         self.alt = alt
         self.drives = drives
-        size = figure.get_size_inches()
-        figure.set_size_inches(size * min(TALLEST / size[1], 1.0))
+        width, height = figure.get_size_inches()
+        figure.set_size_inches(min(max(width, NARROWEST), WIDEST), min(height, TALLEST))
+        _fill(figure)
         for text in figure.findobj(Text):  # those made after `new_figure` have matplotlib's font
             text.set_fontfamily(STYLE["font.family"])
             text.set_fontsize(max(text.get_fontsize(), STYLE["font.size"]))
@@ -162,7 +165,7 @@ class Picture:
 
     def _repr_mimebundle_(self, include=None, exclude=None):
         """As HTML: JupyterLab gives a bare image no alternative text."""
-        width = round(self.figure.get_figwidth() * 72)
+        width = round(self.figure.get_figwidth() * 96)  # px to an inch
         source = quote(self.svg().replace('"', "'"), safe=" ='/:;,()")
         image = f'<img alt="{html.escape(self.alt)}" width="{width}" src="{SVG_URL}{source}"'
         if self.drives:  # after svg(), which lays the axes out
@@ -170,6 +173,21 @@ class Picture:
             image += f' data-motion="{html.escape(motion)}"'
         image += ">"
         return {"text/html": image, "text/plain": repr(self)}
+
+
+def _fill(figure: Figure) -> None:
+    """Widen the limits of axes with equal scales, alone on their row, until they fill the room."""
+    maps = [axes for axes in figure.axes if axes.get_aspect() == 1.0]
+    maps = [it for it in maps if len(it.get_shared_x_axes().get_siblings(it)) == 1]
+    if maps:
+        figure.draw_without_rendering()  # lays the axes out
+    for axes in maps:
+        room = axes.get_position(original=True).size * figure.get_size_inches()
+        limits = np.array([axes.get_xlim(), axes.get_ylim()])
+        spans = np.ptp(limits, axis=1)
+        more = room * max(spans / room) - spans
+        limits += 0.5 * more[:, None] * np.array([-1.0, 1.0])
+        axes.set(xlim=limits[0], ylim=limits[1])
 
 
 def _whole(values: np.ndarray) -> list[int]:
