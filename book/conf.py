@@ -76,7 +76,7 @@ myst_update_mathjax = False
 
 # The live widgets: anywidgets all of them, which a page needs no widget manager of 4 MB for.
 html_js_files = [("widgets.js", {"data-start": "whole page"}), "figures.js", "reading.js"]
-html_js_files += [("vendor/panels.js", {"defer": ""})]
+html_js_files += ["docking.js", ("vendor/panels.js", {"defer": ""})]
 nb_ipywidgets_js = {}
 
 

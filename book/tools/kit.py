@@ -11,7 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from wmrbook import face, live
+from wmrbook import face, live, stages
 from wmrbook.panel import Explorer, Front, MyRobot
 from wmrbook.panel.kit import KIT, programs
 from wmrlib import symbolic
@@ -34,7 +34,8 @@ export function shown() {{
 def printed() -> dict[str, str]:
     """The texts of the modules that are printed, by name."""
     drawings = [getattr(live, name)() for name in sorted(set(live.__all__) - live.PARTS)]
-    panels = Explorer(), Front(), MyRobot(), *drawings
+    lawns = [getattr(stages, name)() for name in sorted(set(stages.__all__) - stages.PARTS)]
+    panels = Explorer(), Front(), MyRobot(), *drawings, *lawns
     rows = "".join(f"  '{it.program}': '{it.contract}',\n" for it in panels)
     head = "// Printed by book/tools/kit.py: the contract of what is stored for each program.\n"
     contracts = f"{head}export const CONTRACTS = {{\n{rows}}};\n"

@@ -3,6 +3,7 @@ r"""A Sphinx extension: what readers of the pages need and the theme leaves out.
 - A line of code that is too long for its window goes on below, marked; see book.css.
 - A figure is a file of its own, and a second one in the colours of the dark theme.
 - Code of cells in a row that show nothing is folded once, with that of the next.
+- A section that names a scene of its chapter's stage has it as a class, stage-NAME; see docking.js.
 - A chapter's title has its number, and below it stands how to run the chapter.
 - The search shows what stands around the words found, from a file beside it: a page that is opened
   from the disk may not fetch another.
@@ -136,6 +137,17 @@ def join_code(app, doctree):
             cell.parent.remove(cell)
 
 
+def name_scenes(app, docname, source):
+    """Give a heading whose cell names a scene of the stage a class for it."""
+    if not CHAPTER.match(docname):
+        return
+    notebook = json.loads(source[0])
+    for cell in notebook["cells"]:
+        if name := cell["metadata"].get("stage"):
+            cell["source"] = [f"{{.stage-{name}}}\n", *cell["source"]]
+    source[0] = json.dumps(notebook)
+
+
 def begin_chapter(app, doctree):
     """Number a chapter's title, and say below it how the chapter is run."""
     chapter = CHAPTER.match(app.env.docname)
@@ -220,6 +232,7 @@ def setup(app):
     PygmentsBridge.html_formatter = Lines
     for change in (show_figures, widen, begin_chapter):
         app.connect("doctree-read", change, priority=400)  # before Sphinx collects images, titles
+    app.connect("source-read", name_scenes)
     app.connect("doctree-read", join_code, priority=410)  # after python_cells
     app.connect("html-page-context", add_words)
     app.connect("build-finished", mend)

@@ -89,7 +89,42 @@ def nearest(value: float, answers: dict[str, float]) -> dict[str, bool]:
     return {words: number == best for words, number in answers.items()}
 
 
-class Live(Panel):
+class Knobs(Panel):
+    """A panel whose knobs are read and set by name: `thing["k_alpha"] = 2`."""
+
+    _knobs: dict[str, Knob | Choice]
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return the knobs as the page has them."""
+        listed = []
+        for name, knob in self._knobs.items():
+            row: dict[str, Any] = {"name": name, **knob._asdict()}
+            if isinstance(knob, Choice):
+                row["choices"] = [*map(list, knob.choices.items())]
+            listed.append(row)
+        return listed
+
+    def places(self) -> dict[str, float | str]:
+        """Return where the knobs stand at first."""
+        return {name: knob.allowed(name, knob.value) for name, knob in self._knobs.items()}
+
+    def __getitem__(self, name: str) -> float | str:
+        return self.state[self._named(name)]
+
+    def __setitem__(self, name: str, value: float | str) -> None:
+        value = self._knobs[self._named(name)].allowed(name, value)
+        self.state = self.state | {name: value}
+
+    def settable(self) -> str:
+        return ", ".join([*(f"[{name!r}]" for name in self._knobs), super().settable()])
+
+    def _named(self, name: str) -> str:
+        if name not in self._knobs:
+            raise refusal("knob", name, f"one of {', '.join(self._knobs)}")
+        return name
+
+
+class Live(Knobs):
     """A small thing to move; `book/wmrbook/panel/kit/live/NAME.js` says what is drawn.
 
     Parameters
@@ -121,38 +156,16 @@ class Live(Panel):
         steps = [step._asdict() for step in SCENES.get(name, ())]
         for step in steps:
             step["to"] = {it: self._knobs[it].allowed(it, to) for it, to in step["to"].items()}
-        listed = []
-        for knob_name, knob in knobs.items():
-            row: dict[str, Any] = {"name": knob_name, **knob._asdict()}
-            if isinstance(knob, Choice):
-                row["choices"] = [*map(list, knob.choices.items())]
-            listed.append(row)
         setup = {
             "sentence": sentence,
-            "knobs": listed,
+            "knobs": self.rows(),
             "data": data or {},
             "ask": ask and {"name": name, **ask._asdict()},
             "steps": steps,
         }
-        state = {key: knob.allowed(key, knob.value) for key, knob in knobs.items()}
-        super().__init__(f"live/{name}", state | {"guess": None}, setup)
+        super().__init__(f"live/{name}", self.places() | {"guess": None}, setup)
 
     def __repr__(self) -> str:
         """What stands there where nothing runs; the sentence needs numbers that the page finds."""
         stands = (f"{it.says}: {it.shown(self[name])}" for name, it in self._knobs.items())
         return f"A live figure: run this cell to move it. It begins with {'; '.join(stands)}."
-
-    def __getitem__(self, name: str) -> float | str:
-        return self.state[self._named(name)]
-
-    def __setitem__(self, name: str, value: float | str) -> None:
-        value = self._knobs[self._named(name)].allowed(name, value)
-        self.state = self.state | {name: value}
-
-    def settable(self) -> str:
-        return ", ".join([*(f"[{name!r}]" for name in self._knobs), super().settable()])
-
-    def _named(self, name: str) -> str:
-        if name not in self._knobs:
-            raise refusal("knob", name, f"one of {', '.join(self._knobs)}")
-        return name

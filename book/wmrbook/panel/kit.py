@@ -24,12 +24,16 @@ LOADER = Path(__file__).with_name("loader.js").read_text(encoding="utf-8")
 
 
 def programs() -> list[str]:
-    """The names of the programs: the panels', and each live figure's."""
+    """The names of the programs: the panels', each live figure's and each stage's."""
     return [
         "explorer",
         "front",
         "my_robot",
-        *(f"live/{path.stem}" for path in sorted(KIT.glob("live/*.js"))),
+        *(
+            f"{path.parent.name}/{path.stem}"
+            for folder in ("live", "stages")
+            for path in sorted(KIT.glob(f"{folder}/*.js"))
+        ),
     ]
 
 

@@ -107,6 +107,8 @@ export function paneOf(canvas, colours, spec) {
       drawAngles(ctx, view, pose, [rho, alpha, theta], goal, colours);
       pane.robot(pose);
     },
+    // the polar errors of a robot anywhere, before a goal anywhere
+    errors(pose, errors, goal) { drawAngles(ctx, view, pose, errors, goal, colours); },
     pose(pose, name) { drawPose(ctx, view, pose, name, colours); names.push([pose, name]); },
     // at last, for no path may strike one out
     name() {

@@ -28,4 +28,5 @@ export const CONTRACTS = {
   'live/unit_circle': '7802370b',
   'live/window': 'e15e2e19',
   'live/x_axis': '7a0abe19',
+  'stages/first_drive': '092554ab',
 };

@@ -8,6 +8,7 @@ export { DEGREES, complex, inDegrees, written } from './style.js';
 export { disc, inside } from './surface.js';
 export { driveContinuously } from './continuous.js';
 export { live } from './live.js';
+export { stage } from './stage.js';
 export { modes, polesOf, summarise } from './simulate.js';
 export { normals } from './random.js';
 export { inReach, onStops } from './controls.js';

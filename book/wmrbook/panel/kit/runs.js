@@ -45,6 +45,10 @@ export const poseAt = (run, k) => [run.x[k], run.y[k], run.heading[k]];
 export const blended = (from, to, share) => Object.fromEntries(Object.keys(from)
     .map((name) => [name, from[name] ** (1 - share) * to[name] ** share]));
 
+/** The gains on a stage's sliders. @param {Values} values @param {Setup} setup */
+export const gainsOf = ({ k_rho, k_alpha, h }, { data: { v_max } }) =>
+    ({ k_rho, k_alpha, h, v_max });
+
 // The time, as a share, at which a path comes nearest to a point, or nothing if that is farther
 // than `reach`: for `scrub`.
 export function timeNear(xs, ys, x, y, reach) {

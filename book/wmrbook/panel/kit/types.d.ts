@@ -6,7 +6,7 @@ declare const wmrKit: () => void;
 declare var wmrPanels: Record<string, any>;
 /** What a figure found, for tests. */
 interface HTMLDivElement { found?: any }
-interface HTMLElement { grips?: Map<string, any> }
+interface HTMLElement { grips?: Map<string, any>; stage?: any }
 
 /** Numbers: x and y in m, heading in rad; and two of anything. Tuples would be in the way. */
 type Pose = any;
@@ -66,6 +66,7 @@ type Pane = {
   angle(...placeFromByNameRole: any[]): void;
   robot(pose: Pose, share?: number, looks?: { size?: number; role?: string }): void;
   state(rho: number, alpha: number, theta: number): void;
+  errors(pose: Pose, errors: any, goal: Pose): void;
   pose(pose: Pose, name: string): void;
   name(): void;
   rect(...endsRoleShare: any[]): void;
@@ -87,6 +88,14 @@ type Drawing = {
     setup: Setup): void;
   say(values: Values, found: any, setup: Setup): Record<string, string | number>;
   handles?(values: Values, found: any, setup: Setup): Handle[];
+};
+
+/** What a chapter's stage plays, see stage.js. */
+type Play = {
+  find(values: Values, setup: any): any;
+  say(values: Values, found: any, setup: any): Record<string, string | number>;
+  look?(values: Values, found: any, setup: any, how: string): number[] | null;
+  draw?(pane: Pane, values: Values, found: any, now: any, setup: any): void;
 };
 
 /** A widget's model, as anywidget gives it. */

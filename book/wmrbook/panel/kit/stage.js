@@ -1,0 +1,311 @@
+// The stage of a chapter: a lawn, robots that drive on it, the few handles that the chapter is
+// about, and scenes that its sections name. A page docks it beside the text where there is room,
+// see book/_static/docking.js.
+
+import { COLOURS } from './face.js';
+import { DEGREES, inDegrees, inWords, isCalm } from './style.js';
+import { buildHandles } from './handles.js';
+import { keepKeys, putSlider, stopsOf } from './controls.js';
+import { made } from './hands.js';
+import { paneOf } from './board.js';
+import { putSymbol } from './symbols.js';
+import { repainted, sizeOf } from './surface.js';
+import { widget } from './widget.js';
+import { within } from './numbers.js';
+import { wrap } from './model.js';
+
+const DRIVE = 4000, FLIGHT = 1100; // ms: a drive, and the camera's way from one scene to the next
+const ROBOT = 0.6, ICON = 27; // m and px, the robot's length and that of its drawing
+const NEAR = 1.25, MARGIN = 5; // m round the goal seen from near, and round all of a drive
+const PARKED = 2 / DEGREES; // rad off, which nobody sees
+const ease = (share) => share * share * (3 - 2 * share);
+
+/**
+ * A chapter gives, in a file of its own,
+ *   find(values, setup): what follows from the knobs: { tracks, ... }, each track { t, x, y,
+ *     heading, n, role }, the robot's samples in time, in seconds, metres and radians; throws
+ *     RangeError, in words, where nothing follows;
+ *   say(values, found, setup): the results in the sentences, by name;
+ *   look(values, found, setup, how): what the camera shows, [left, bottom, right, top] in metres,
+ *     where that is neither all of the way ("whole") nor the goal ("near");
+ *   draw(pane, values, found, now, setup): what is on the lawn beside paths and robots; `now` has
+ *     the time, the scene, what it `shows`, the robot's `pose` and its sample `k`.
+ * @param {string} name @param {Play} play
+ */
+export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) => {
+  const setup = structuredClone(model.get('setup')),
+      root = made(el, 'div', { className: 'wmr stage' });
+  keepKeys(root);
+  const say = made(root, 'div', { className: 'stage-say' }, { 'aria-live': 'polite' }),
+      host = made(root, 'div', { className: 'stage-view' }),
+      canvas = made(host, 'canvas', {}, { role: 'img' }),
+      tools = made(host, 'div', { className: 'wmr-bar stage-tools' }),
+      rows = made(root, 'div', { className: 'stage-rows' },
+          { role: 'group', 'aria-label': 'what you can change' });
+  const values = () => model.get('state'), still = isCalm();
+  const home = { ...setup.poses,
+    ...Object.fromEntries(setup.knobs.map(({ name: knob, value }) => [knob, value])) };
+  let colours, found, ghost = null, view, frame = 0, holds = false;
+  let at = 0, from = 0, began = 0; // the time shown, and where and when the film began
+  let close = false, camera = null, flight = null; // what is seen, and from where the camera comes
+
+  const scene = () => setup.scenes.find((it) => it.name === values().scene);
+  const write = (changes) => model.set('state', { ...values(), ...changes });
+  const byHand = (changes) => { write(changes); model.save_changes(); };
+  const whole = () => Math.max(...found.tracks.map(({ t, n }) => t[n - 1])),
+      end = () => scene().until * whole(); // where the film of this scene ends
+
+  const words = setup.scenes.map((it) => putWordsOf(it));
+  const again = made(tools, 'button', { type: 'button', textContent: 'Drive again' });
+  const nearer = made(tools, 'button', { type: 'button' });
+  again.addEventListener('click', () => { from = 0; film(); });
+  nearer.addEventListener('click', () => { fly(!close); });
+  nearer.hidden = setup.far;
+  const showRows = setup.knobs.map((knob) => putRow(knob));
+  const handles = buildHandles(host, {
+    get: (pose) => values()[pose],
+    set(pose, place) { moved({ [pose]: place }); },
+    view: () => view,
+    hold(on) { holds = on; if (on) ghost = found.tracks[0]; else { model.save_changes(); film(); } },
+  });
+
+  // Sentences and questions lie on one another, so that the box is as high as the longest.
+  function putWordsOf({ name: of, says, ask }) {
+    const results = [];
+    const put = (text, kind) => {
+      const it = made(say, 'p', { className: 'stage-words' });
+      for (const piece of text.split(/(\{[a-z_]+\}|\*[a-z_]+\*)/)) {
+        if (piece[0] === '{')
+          results.push([piece.slice(1, -1), made(it, 'b', { className: 'live-result' })]);
+        else if (piece[0] === '*') putSymbol(it, piece.slice(1, -1));
+        else it.append(piece);
+      }
+      it.dataset.kind = kind;
+      return it;
+    };
+    const asked = ask && put(`${ask.question} `, 'ask');
+    const answers = (ask ? ask.answers : []).map(([answer, verdict], k) => {
+      const chip = made(asked, 'button',
+          { type: 'button', className: 'stage-chip', textContent: answer });
+      chip.addEventListener('click', () => {
+        ghost = found.tracks[0];
+        byHand({ answer: k, ...ask.then });
+        refresh();
+        from = close ? Math.max(0, nearTime()) : 0;
+        film();
+        again.focus({ preventScroll: true }); // the chip has gone
+      });
+      return put(`${k === ask.key ? 'Yes: ' : 'No: '}${verdict}`, 'verdict');
+    });
+    return { of, plain: put(says, 'says'), asked, answers, results };
+  }
+  function putRow(knob) {
+    const row = made(rows, knob.choices ? 'div' : 'label', { className: 'stage-row' }),
+        own = made(row, 'span');
+    row.dataset.control = knob.name;
+    if (knob.symbol) putSymbol(own, knob.symbol); else own.textContent = knob.label;
+    if (knob.choices) {
+      const box = made(row, 'div', { className: 'stage-choices', role: 'group' },
+          { 'aria-label': knob.says });
+      const chips = knob.choices.map(([value, text]) => {
+        const chip = made(box, 'button',
+            { type: 'button', className: 'stage-chip', textContent: text });
+        chip.addEventListener('click', () => {
+          ghost = found.tracks[0];
+          byHand({ [knob.name]: value });
+          refresh();
+          film();
+        });
+        return [value, chip];
+      });
+      return () => chips.forEach(([value, chip]) =>
+        chip.setAttribute('aria-pressed', String(values()[knob.name] === value)));
+    }
+    const role = knob.symbol.split('_').at(-1);
+    if (role in COLOURS) row.style.setProperty('--focus', `var(--${role})`);
+    const stops = stopsOf(knob.low, knob.high, knob.step);
+    const show = putSlider(row, knob.says, stops, {
+      get: () => values()[knob.name],
+      set(value) { moved({ [knob.name]: value }); model.save_changes(); },
+    });
+    const shown = made(row, 'output');
+    return () => {
+      const value = values()[knob.name],
+          gap = knob.unit === '°' || !knob.unit ? '' : ' ';
+      shown.textContent = `${inWords(value)}${gap}${knob.unit}`;
+      show(value, shown.textContent);
+    };
+  }
+
+  // A hand has moved something: the whole way is seen at once.
+  function moved(changes) {
+    const { answer } = values();
+    write({ ...changes, answer: answer === null ? null : -1 }); // a verdict is of what was asked
+    began = 0;
+    refresh();
+    at = end();
+    schedule();
+  }
+  function refresh() {
+    try { found = play.find(values(), setup); } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      root.dataset.trouble = error.message;
+    }
+  }
+  function nearTime() {
+    const [track] = found.tracks, { goal } = values();
+    if (!goal) return 0;
+    const k = track.x.findIndex((x, i) => Math.hypot(x - goal[0], track.y[i] - goal[1]) < 2 * NEAR);
+    return k < 0 ? 0 : track.t[k];
+  }
+  function film() {
+    if (still) { at = end(); began = 0; } else { at = from; began = performance.now(); }
+    schedule();
+  }
+  function fly(toClose) {
+    if (close === toClose) return;
+    flight = still || !camera ? null : { since: performance.now(), from: { ...camera } };
+    close = toClose;
+    schedule();
+  }
+  // A section of the text, or the reader, asks for a scene.
+  function show(of, first = false) {
+    const next = setup.scenes.find((it) => it.name === of);
+    if (!next) return;
+    ghost = null;
+    write({ ...home, ...next.to, scene: of, answer: null });
+    refresh();
+    if (first) close = next.look === 'near'; else fly(next.look === 'near');
+    if (next.look === 'other') fly(false);
+    from = next.look === 'near' ? nearTime() : 0;
+    if (next.still) { began = 0; at = next.ask ? end() : 0; schedule(); } else film();
+  }
+
+  function schedule() { if (!frame) frame = requestAnimationFrame(draw); }
+  function boxNow() {
+    const own = play.look && play.look(values(), found, setup, scene().look);
+    const { start, goal } = values();
+    if (close && goal) return [goal[0] - NEAR, goal[1] - NEAR, goal[0] + NEAR, goal[1] + NEAR];
+    if (own) return own;
+    const xs = [start[0], goal[0]], ys = [start[1], goal[1]];
+    return [Math.min(...xs) - MARGIN, Math.min(...ys) - MARGIN, Math.max(...xs) + MARGIN,
+        Math.max(...ys) + MARGIN];
+  }
+  // Where the camera is: its middle and how many pixels a metre has.
+  function aimed({ width, height }) {
+    const [left, bottom, right, top] = boxNow();
+    return { x: (left + right) / 2, y: (bottom + top) / 2,
+      scale: Math.min(width / (right - left), height / (top - bottom)) };
+  }
+  function seen(now, size) {
+    const to = aimed(size);
+    if (!flight) return to;
+    const passed = ease(within((now - flight.since) / FLIGHT, 0, 1)), { from: old } = flight;
+    if (passed === 1) { flight = null; return to; }
+    const scale = old.scale * (to.scale / old.scale) ** passed;
+    // straight towards what the eye looks at, while the scale grows
+    const gone = Math.abs(Math.log(to.scale / old.scale)) < 0.1 ? passed
+        : 1 - (1 / scale - 1 / to.scale) / (1 / old.scale - 1 / to.scale);
+    return { x: old.x + gone * (to.x - old.x), y: old.y + gone * (to.y - old.y), scale };
+  }
+
+  function draw(stamp) {
+    frame = 0;
+    if (!colours || !found) return;
+    const now = stamp || performance.now(), last = end();
+    if (began) {
+      const passed = within((now - began) / DRIVE, 0, 1);
+      at = from + (last - from) * (1 - (1 - passed) ** 1.8); // slower towards its end
+      if (passed === 1) began = 0;
+    }
+    at = within(at, 0, last);
+    const size = sizeOf(canvas);
+    if (size.width < 2) return;
+    if (!holds || !camera) camera = seen(now, size);
+    paint(size, at >= whole() && !began);
+    if (began || flight) schedule();
+  }
+  function paint({ width, height }, done) {
+    const { x, y, scale } = camera, across = width / 2 / scale, up = height / 2 / scale;
+    const pane = paneOf(canvas, colours, { x: [x - across, x + across], y: [y - up, y + up],
+      lawn: true, alt: '' });
+    view = pane.view;
+    const state = values(), { start, goal } = state, it = scene();
+    const size = Math.max(scale * ROBOT / ICON, 1);
+    const sampled = found.tracks.map((track) => sampleAt(track, at));
+    const now = { time: at, done, scene: it.name, shows: it.shows, k: sampled[0].k,
+      pose: sampled[0].pose, size };
+    if (ghost)
+      pane.path(ghost.x, ghost.y, 'ghost', { width: 1.5, dash: [2, 5], to: ghost.n });
+    found.tracks.forEach(({ x: xs, y: ys, role }, k) =>
+      pane.path(xs, ys, role, { width: 3, to: sampled[k].k + 1 }));
+    if (goal && close) pane.robot(goal, 0.3, { size }); // where it should stand
+    if (start) pane.pose(start, 'start');
+    if (play.draw) play.draw(pane, state, found, now, setup);
+    if (!it.empty)
+      found.tracks.forEach(({ role }, k) => pane.robot(sampled[k].pose, 1, { size, role }));
+    if (goal) pane.pose(goal, 'goal');
+    const off = goal ? wrap(now.pose[2] - goal[2]) : 0;
+    if (close && done && Math.abs(off) > PARKED && !it.empty)
+      pane.angle(goal[0], goal[1], goal[2], off, inDegrees(Math.abs(off), 0), 'rising', 84);
+    pane.name();
+    handles(Object.fromEntries(['start', 'goal'].map((pose) =>
+      [pose, setup.hands.includes(pose) && inside(view, state[pose]) ? state[pose] : null])));
+    tell(done);
+  }
+  function tell(done) {
+    const state = values(), results = play.say(state, found, setup);
+    for (const { of, plain, asked, answers, results: places } of words) {
+      const now = of === state.scene, verdict = answers[state.answer];
+      const chosen = verdict || (asked && state.answer === null ? asked : plain);
+      for (const it of [plain, asked, ...answers].filter(Boolean)) {
+        const on = now && it === chosen;
+        if (on === (it.dataset.on === 'true')) continue;
+        it.dataset.on = String(on);
+        it.inert = !on;
+        it.setAttribute('aria-hidden', String(!on));
+      }
+      for (const [result, place] of places) {
+        const text = String(results[result]);
+        if (place.textContent !== text) place.textContent = text;
+      }
+    }
+    showRows.forEach((each) => each());
+    nearer.textContent = close ? 'The whole way' : 'The last metre';
+    canvas.setAttribute('aria-label', `A lawn from above. ${
+      say.querySelector('[data-on="true"]').textContent}`);
+    root.dataset.done = String(!began && !flight);
+    root.dataset.scene = state.scene;
+  }
+
+  root.stage = { show, scenes: setup.scenes.map((it) => it.name) };
+  root.found = () => found; // for tests
+  show(values().scene, true);
+  const page = repainted(root, [canvas], (read) => { colours = read; schedule(); });
+  const heard = () => { refresh(); schedule(); };
+  model.on('change:state', heard);
+  return () => {
+    page.stop();
+    cancelAnimationFrame(frame);
+    model.off('change:state', heard);
+  };
+});
+
+const inside = ({ box, toScreen }, pose) => {
+  if (!pose) return false;
+  const [x, y] = toScreen(pose[0], pose[1]);
+  return x > 0 && x < box.width && y > 0 && y < box.height;
+};
+
+// The sample of a track that is reached at a time, and the pose between it and the next.
+function sampleAt({ t, x, y, heading, n }, time) {
+  let [low, high] = [0, n - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (t[middle] <= time) low = middle; else high = middle;
+  }
+  if (time >= t[n - 1]) return { k: n - 1, pose: [x[n - 1], y[n - 1], heading[n - 1]] };
+  const share = within((time - t[low]) / (t[high] - t[low] || 1), 0, 1);
+  const mid = (column) => column[low] + share * (column[high] - column[low]);
+  return { k: low, pose: [mid(x), mid(y), heading[low] + share * wrap(heading[high] - heading[low])] };
+}
