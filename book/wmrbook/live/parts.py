@@ -39,6 +39,7 @@ class Choice(NamedTuple):
     value: str
     choices: dict[str, str]
     says: str
+    label: str = ""  # beside the choices of a stage
 
     def allowed(self, name: str, value: Any) -> str:
         """Return the value, or refuse it by name."""

@@ -45,7 +45,9 @@ def first_drive(scene: str = "whole") -> Stage:
             until=0.6,
         ),
         "law": Scene(
-            "From these three numbers follow its speed and its turning rate.", shows=("twist",), until=0.6
+            "From these three numbers follow its speed and its turning rate.",
+            shows=("twist",),
+            until=0.6,
         ),
         "gains": Scene("Move one number at a time. " + ENDS),
         "near": Scene("The last metre. " + ENDS, look="near"),

@@ -25,12 +25,12 @@ import { putSymbol, roleOf } from './symbols.js';
 export function putGains(parent, gains, { get, set, refuse }) {
   const root = made(parent, 'div', { className: 'wmr-gains' },
       { role: 'group', 'aria-label': 'gains' });
-  const rows = gains.map(({ name, says, low, high, step, unit }) => {
+  const rows = gains.map(({ name, says, low, high, step, unit, label }) => {
     const row = made(root, 'div', { className: 'wmr-gain', title: says }),
         role = roleOf(name), called = unit ? `${name} [${unit}]` : name;
     row.dataset.control = name;
     if (role) row.style.setProperty('--knob-colour', `var(--${role})`);
-    putSymbol(row, name);
+    if (label) made(row, 'span', { textContent: label }); else putSymbol(row, name);
     const showSlider = putSlider(row, `${name}, ${says}`, stopsOf(low, high, step),
         { get: () => get(name), set: (value) => set(name, value) });
     const showTyped = putTyped(row, called, { set: (value) => set(name, value), refuse });

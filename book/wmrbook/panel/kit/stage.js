@@ -2,12 +2,12 @@
 // about, and scenes that its sections name. A page docks it beside the text where there is room,
 // see book/_static/docking.js.
 
-import { COLOURS } from './face.js';
 import { DEGREES, inDegrees, inWords, isCalm } from './style.js';
 import { buildHandles } from './handles.js';
-import { keepKeys, putSlider, stopsOf } from './controls.js';
+import { keepKeys } from './controls.js';
 import { made } from './hands.js';
 import { paneOf } from './board.js';
+import { putGains } from './gains.js';
 import { putSymbol } from './symbols.js';
 import { repainted, sizeOf } from './surface.js';
 import { widget } from './widget.js';
@@ -39,6 +39,7 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
   const say = made(root, 'div', { className: 'stage-say' }, { 'aria-live': 'polite' }),
       host = made(root, 'div', { className: 'stage-view' }),
       canvas = made(host, 'canvas', {}, { role: 'img' }),
+      trouble = made(host, 'p', { className: 'stage-trouble' }, { role: 'alert' }),
       tools = made(host, 'div', { className: 'wmr-bar stage-tools' }),
       rows = made(root, 'div', { className: 'stage-rows' },
           { role: 'group', 'aria-label': 'what you can change' });
@@ -61,12 +62,31 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
   again.addEventListener('click', () => { from = 0; film(); });
   nearer.addEventListener('click', () => { fly(!close); });
   nearer.hidden = setup.far;
-  const showRows = setup.knobs.map((knob) => putRow(knob));
+  const numbers = setup.knobs.filter(({ choices }) => !choices);
+  const showRows = setup.knobs.filter(({ choices }) => choices).map(putChoice);
+  if (numbers.length)
+    showRows.push(putGains(rows, numbers, {
+      get: (knob) => values()[knob],
+      set(knob, value) {
+        const { low, high } = numbers.find((it) => it.name === knob);
+        if (value < low || value > high) {
+          refuse(`${knob} = ${inWords(value)} is not allowed: from ${inWords(low)} to `
+              + `${inWords(high)}.`);
+          return;
+        }
+        moved({ [knob]: value });
+        model.save_changes();
+      },
+      refuse,
+    }));
   const handles = buildHandles(host, {
     get: (pose) => values()[pose],
     set(pose, place) { moved({ [pose]: place }); },
     view: () => view,
-    hold(on) { holds = on; if (on) ghost = found.tracks[0]; else { model.save_changes(); film(); } },
+    hold(on) {
+      holds = on;
+      if (on) ghost = found.tracks[0]; else { model.save_changes(); film(); }
+    },
   });
 
   // Sentences and questions lie on one another, so that the box is as high as the longest.
@@ -99,42 +119,25 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
     });
     return { of, plain: put(says, 'says'), asked, answers, results };
   }
-  function putRow(knob) {
-    const row = made(rows, knob.choices ? 'div' : 'label', { className: 'stage-row' }),
-        own = made(row, 'span');
-    row.dataset.control = knob.name;
-    if (knob.symbol) putSymbol(own, knob.symbol); else own.textContent = knob.label;
-    if (knob.choices) {
-      const box = made(row, 'div', { className: 'stage-choices', role: 'group' },
-          { 'aria-label': knob.says });
-      const chips = knob.choices.map(([value, text]) => {
-        const chip = made(box, 'button',
-            { type: 'button', className: 'stage-chip', textContent: text });
-        chip.addEventListener('click', () => {
-          ghost = found.tracks[0];
-          byHand({ [knob.name]: value });
-          refresh();
-          film();
-        });
-        return [value, chip];
+  // A choice among a few is a row of chips.
+  function putChoice({ name: knob, choices, says, label }) {
+    const row = made(rows, 'div', { className: 'stage-row' });
+    row.dataset.control = knob;
+    made(row, 'span', { textContent: label });
+    const box = made(row, 'div', {}, { role: 'group', 'aria-label': says });
+    const chips = choices.map(([value, text]) => {
+      const chip = made(box, 'button',
+          { type: 'button', className: 'stage-chip', textContent: text });
+      chip.addEventListener('click', () => {
+        ghost = found.tracks[0];
+        byHand({ [knob]: value });
+        refresh();
+        film();
       });
-      return () => chips.forEach(([value, chip]) =>
-        chip.setAttribute('aria-pressed', String(values()[knob.name] === value)));
-    }
-    const role = knob.symbol.split('_').at(-1);
-    if (role in COLOURS) row.style.setProperty('--focus', `var(--${role})`);
-    const stops = stopsOf(knob.low, knob.high, knob.step);
-    const show = putSlider(row, knob.says, stops, {
-      get: () => values()[knob.name],
-      set(value) { moved({ [knob.name]: value }); model.save_changes(); },
+      return [value, chip];
     });
-    const shown = made(row, 'output');
-    return () => {
-      const value = values()[knob.name],
-          gap = knob.unit === '°' || !knob.unit ? '' : ' ';
-      shown.textContent = `${inWords(value)}${gap}${knob.unit}`;
-      show(value, shown.textContent);
-    };
+    return (now) => chips.forEach(([value, chip]) =>
+      chip.setAttribute('aria-pressed', String(now[knob] === value)));
   }
 
   // A hand has moved something: the whole way is seen at once.
@@ -146,10 +149,12 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
     at = end();
     schedule();
   }
+  function refuse(sentence) { trouble.textContent = sentence; }
   function refresh() {
+    refuse('');
     try { found = play.find(values(), setup); } catch (error) {
       if (!(error instanceof RangeError)) throw error;
-      root.dataset.trouble = error.message;
+      refuse(error.message); // and the picture stays as it was
     }
   }
   function nearTime() {
@@ -251,9 +256,9 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
     pane.name();
     handles(Object.fromEntries(['start', 'goal'].map((pose) =>
       [pose, setup.hands.includes(pose) && inside(view, state[pose]) ? state[pose] : null])));
-    tell(done);
+    tell();
   }
-  function tell(done) {
+  function tell() {
     const state = values(), results = play.say(state, found, setup);
     for (const { of, plain, asked, answers, results: places } of words) {
       const now = of === state.scene, verdict = answers[state.answer];
@@ -270,7 +275,8 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
         if (place.textContent !== text) place.textContent = text;
       }
     }
-    showRows.forEach((each) => each());
+    const places = Object.fromEntries(setup.knobs.map((it) => [it.name, state[it.name]]));
+    showRows.forEach((each) => each(places));
     nearer.textContent = close ? 'The whole way' : 'The last metre';
     canvas.setAttribute('aria-label', `A lawn from above. ${
       say.querySelector('[data-on="true"]').textContent}`);
@@ -307,5 +313,6 @@ function sampleAt({ t, x, y, heading, n }, time) {
   if (time >= t[n - 1]) return { k: n - 1, pose: [x[n - 1], y[n - 1], heading[n - 1]] };
   const share = within((time - t[low]) / (t[high] - t[low] || 1), 0, 1);
   const mid = (column) => column[low] + share * (column[high] - column[low]);
-  return { k: low, pose: [mid(x), mid(y), heading[low] + share * wrap(heading[high] - heading[low])] };
+  const turned = heading[low] + share * wrap(heading[high] - heading[low]);
+  return { k: low, pose: [mid(x), mid(y), turned] };
 }
