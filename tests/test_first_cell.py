@@ -3,16 +3,19 @@
 import importlib.metadata
 import importlib.util
 import json
+import shutil
 import subprocess
 from pathlib import Path
 from types import SimpleNamespace
 
 import first_cell
+import pages
 import pytest
 
 from wmrbook import data
 
-CHAPTERS = sorted((Path(__file__).parents[1] / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+ROOT = Path(__file__).parents[1]
+CHAPTERS = sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
 ADDRESS = "https://example.org/someone/robot"
 
 
@@ -85,3 +88,35 @@ def test_a_chapter_finds_its_data_from_any_folder(tmp_path, monkeypatch):
     assert all(data.path(name).is_file() for name in data.NAMES)
     with pytest.raises(ValueError, match=r"name = 'log.nmea' is not allowed.*ublox5-standing.nmea"):
         data.path("log.nmea")
+
+
+def test_a_page_offers_colab_once_the_repository_has_an_address():
+    name = "notebooks/04_lyapunov.ipynb"
+    assert "Colab" not in pages.how_to_run(name, "")
+    assert "Colab" not in pages.how_to_run(name, ADDRESS)  # it opens what GitHub has
+    button = "https://colab.research.google.com/github/someone/robot/blob/main/" + name
+    assert f'href="{button}"' in pages.how_to_run(name, "https://github.com/someone/robot")
+
+
+@pytest.mark.skipif(not shutil.which("git"), reason="this test needs git")
+def test_git_for_windows_leaves_every_byte_as_it_is(tmp_path):
+    """It would turn line ends into CRLF, and so the receivers' logs and the C headers."""
+    folders = "notebooks", "wmrlib", "book/wmrbook", "book/robot", "book/deck", ".ci"
+    paths = [path for name in folders for path in (ROOT / name).rglob("*") if path.is_file()]
+    kinds = {path.suffix: path for path in paths if "__pycache__" not in path.parts}
+    assert {".ipynb", ".nmea", ".ubx", ".h", ".py", ".js", ""} <= kinds.keys()
+    kinds["attributes"] = ROOT / ".gitattributes"
+    for path in kinds.values():
+        shutil.copy(path, tmp_path)
+
+    def git(*command):
+        options = "-c", "core.autocrlf=true", "-c", "core.safecrlf=false"
+        subprocess.run(["git", *options, *command], cwd=tmp_path, check=True, capture_output=True)
+
+    git("init")
+    git("add", "--all")
+    for path in kinds.values():
+        (tmp_path / path.name).unlink()
+    git("checkout", "--", ".")
+    for path in kinds.values():
+        assert (tmp_path / path.name).read_bytes() == path.read_bytes(), path

@@ -22,6 +22,7 @@ from pathlib import Path
 from urllib.parse import unquote
 from xml.etree import ElementTree
 
+import first_cell
 from docutils import nodes
 from docutils.utils.math.latex2mathml import tex2mathml
 from pygments.formatters import HtmlFormatter
@@ -35,6 +36,7 @@ FIGURE = re.compile(
     rf'<img alt="(?P<alt>[^"]*)" width="\d+" src="{re.escape(SVG_URL)}(?P<svg>[^"]*)"'
     r'(?: data-motion="(?P<motion>[^"]*)")?>'
 )
+GITHUB = "https://github.com/"
 TAG = re.compile(r"<[^>]+>")
 MODEL = re.compile(r'(?<=")[0-9a-f]{32}(?=": \{"model_name)')
 EMPTY = r"<th\b[^>]*>\s*(?:<p></p>)?\s*</th>"
@@ -155,13 +157,20 @@ def begin_chapter(app, doctree):
     if not chapter or title is None:
         return
     title.insert(0, nodes.Text(f"{int(chapter[1])}. "))
-    name = f"{app.env.docname}.ipynb"
-    run_it = (
-        f'<p class="run-it">Run it yourself: <a href="../_sources/{name}" download>download this '
+    run_it = how_to_run(f"{app.env.docname}.ipynb", first_cell.address())
+    title.parent.insert(title.parent.index(title) + 1, nodes.raw("", run_it, format="html"))
+
+
+def how_to_run(name: str, repository: str) -> str:
+    """The sentence below a chapter's title; for a repository on GitHub, with a link to Colab."""
+    colab = f"https://colab.research.google.com/github/{repository[len(GITHUB) :]}/blob/main/{name}"
+    button = f'<a class="colab" href="{colab}">open it in Colab</a>, '
+    return (
+        f'<p class="run-it">Run it yourself: {button if repository.startswith(GITHUB) else ""}'
+        f'<a href="../_sources/{name}" download>download this '
         f'chapter</a>, or <a href="../use.html#as-notebooks">open them all</a> with '
         f"<code>jupyter lab {name}</code>.</p>"
     )
-    title.parent.insert(title.parent.index(title) + 1, nodes.raw("", run_it, format="html"))
 
 
 def mend(app, exception):
