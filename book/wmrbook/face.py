@@ -8,6 +8,9 @@ or a label says too.
 
 from __future__ import annotations
 
+import re
+import unicodedata
+
 COLOURS = {
     # role: on light paper, on dark paper
     "paper": ("#fdfcf8", "#15191e"),
@@ -46,6 +49,24 @@ FILES = (
     ("JetBrains Mono", "100 800", "normal", "-variable/jetbrains-mono", "latin-wght"),
     ("STIX Two Text", "400", "italic", "/stix-two-text", "greek-400"),
 )
+
+
+_DEGREES = re.compile(r"(?<=\d) deg\b|(?<=\[)deg(?=\])")
+_GREEK = "alpha|beta|gamma|delta|zeta|theta|kappa|lambda|rho|sigma|tau|phi|omega"
+_NAME = re.compile(rf"\b(?:([kvl])_(?:(max|x|y)|({_GREEK}))|({_GREEK}))\b")
+
+
+def in_symbols(words: str) -> str:
+    """Return a text with symbols for their names, and a sign for degrees."""
+    return _NAME.sub(_symbol, _DEGREES.sub("°", words))
+
+
+def _symbol(name: re.Match) -> str:
+    stem, index, greek, letter = name.groups()
+    if stem:
+        return f"${stem}_{{{index}}}$" if index else f"${stem}_{{\\{greek}}}$"
+    spelled = "lamda" if letter == "lambda" else letter  # by Unicode
+    return unicodedata.lookup(f"GREEK SMALL LETTER {spelled.upper()}")
 
 
 def css() -> str:

@@ -10,7 +10,6 @@ import io
 import json
 import math
 import re
-import unicodedata
 from collections.abc import Sequence
 from importlib.resources import files
 from typing import Any, NamedTuple
@@ -25,6 +24,7 @@ from matplotlib.patches import Polygon
 from matplotlib.text import Text
 
 from wmrbook import face
+from wmrbook.face import in_symbols
 from wmrlib.kinematics import Pose
 
 COLOURS = {role: light for role, (light, _) in face.COLOURS.items()} | {
@@ -79,9 +79,6 @@ _UNUSED = re.compile(r'<!--.*?--> |(?<=<g) id="[^"]*"')
 _CROWDED = re.compile(r'<g( clip-path="[^"]*")>((?: <use [^>]*?style="([^"]*)"/>){100,}) </g>')
 _HASHED = re.compile(r"(?<=[\"#])[mp][0-9a-f]{10}\b")  # of all digits of what it names
 _POINTS = re.compile(r' (?:d|x|y|width|height)="[^"]*"|translate\([^)]*\)')
-_DEGREES = re.compile(r"(?<=\d) deg\b|(?<=\[)deg(?=\])")
-_GREEK = "alpha|beta|gamma|delta|zeta|theta|kappa|lambda|rho|sigma|tau|phi|omega"
-_NAME = re.compile(rf"\b(?:([kvl])_(?:(max|x|y)|({_GREEK}))|({_GREEK}))\b")
 _NUMBER = re.compile(r"-?\d+\.\d{3,}(?:e-?\d+)?")  # with more decimals than one can see
 
 
@@ -196,19 +193,6 @@ def _whole(values: np.ndarray) -> list[int]:
 
 def _changes(values: list[int]) -> list[int]:
     return [values[0], *np.diff(values).tolist()]
-
-
-def in_symbols(words: str) -> str:
-    """Return a text with symbols for their names, and a sign for degrees."""
-    return _NAME.sub(_symbol, _DEGREES.sub("°", words))
-
-
-def _symbol(name: re.Match) -> str:
-    stem, index, greek, letter = name.groups()
-    if stem:
-        return f"${stem}_{{{index}}}$" if index else f"${stem}_{{\\{greek}}}$"
-    spelled = "lamda" if letter == "lambda" else letter  # by Unicode
-    return unicodedata.lookup(f"GREEK SMALL LETTER {spelled.upper()}")
 
 
 def darkened(svg: str) -> str:
