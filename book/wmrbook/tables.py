@@ -123,7 +123,7 @@ def _is_number(value: Any) -> bool:
 
 def _three_digits(numbers: list[Any]) -> str:
     """The format of a column: whole numbers as they are, else three digits for the largest."""
-    if all(value == int(value) for value in numbers):
+    if all(abs(value - round(value)) < 1e-9 for value in numbers):
         return ".0f"
     largest = max(map(abs, numbers))
     return f".{min(max(2 - math.floor(math.log10(largest)), 0), 6)}f"
