@@ -52,7 +52,7 @@ def test_decimals_stand_below_one_another():
     lines = repr(table({"run": ["a", "bb"], "time [s]": [9.25, 110.5]}, ".2f")).splitlines()
     assert [line.rindex(".") for line in lines[1:]] == [10, 10]
     shown = table({"of": ["all"], "n": [12], "left [%]": [np.float64(2.0)], "ok": [True]})
-    assert repr(shown).splitlines()[1].split() == ["all", "12", "2", "True"]
+    assert repr(shown).splitlines()[1].split() == ["all", "12", "2", "yes"]
 
 
 def test_the_largest_number_of_a_column_has_three_digits_and_whole_numbers_no_decimals():

@@ -68,8 +68,8 @@ def table(
     r"""Make a table of columns, to be shown as the result of a cell.
 
     The first column names the rows. Numbers are aligned to the right; an infinite one is shown as
-    ∞, and NaN and None as a dash. In headings and texts, symbols take the place of names such as
-    k_rho, and formulas may stand between dollars.
+    ∞, NaN and None as a dash, True and False as yes and no. In headings and texts, symbols take the
+    place of names such as k_rho, and formulas may stand between dollars.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ def _written(value: Any, form: str, column: str) -> str:
     if value is None or (_is_number(value) and math.isnan(value)):
         return _NOTHING
     if not _is_number(value):
-        return str(value)
+        return {"True": "yes", "False": "no"}.get(str(value), str(value))
     if math.isinf(value):
         return "∞" if value > 0 else "-∞"
     try:
