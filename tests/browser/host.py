@@ -60,13 +60,14 @@ def served(page, url=URL):
     page.goto(url)
 
 
-def mounted(page, explorer, width=1280, height=720, url=URL, texts=None):
+def mounted(page, explorer, width=1280, height=720, url=URL, texts=None, motion="reduce"):
     """Show the explorer in the page and return the Panel that drives it, once it is drawn.
 
-    Its program are the `texts`, by default those that a kernel sends.
+    Its program are the `texts`, by default those that a kernel sends; `motion` is what the reader
+    wants of things that move by themselves, "reduce" or "no-preference".
     """
     page.set_viewport_size({"width": width, "height": height})
-    page.emulate_media(reduced_motion="reduce")
+    page.emulate_media(reduced_motion=motion)
     served(page, url)
     page.add_script_tag(content=HOST)
     given = [explorer.get_state(TRAITS), texts or sources(explorer.program)]

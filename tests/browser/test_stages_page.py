@@ -1,0 +1,103 @@
+"""The stages of all chapters in one page: every handle, scene and answer, and what is then read."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+pytest.importorskip("anywidget", reason="what moves needs anywidget")
+from faults import violations
+from host import mounted
+
+from wmrbook import stages
+
+NAMES = sorted(set(stages.__all__) - stages.PARTS)
+UNSOUND = re.compile("NaN|undefined|Infinity|null|\\[object|\N{EN DASH}")
+# A clock that goes fifty times as fast: a film is seen whole, in a moment.
+QUICK = """(() => {
+    const clock = performance.now.bind(performance), begin = clock(),
+        next = requestAnimationFrame.bind(window), fast = (now) => begin + 50 * (now - begin);
+    performance.now = () => fast(clock());
+    window.requestAnimationFrame = (callback) => next((now) => callback(fast(now)));
+})();"""
+# Does all that a hand can do, and returns what is to be seen after each of it.
+TRIED = """async ({ knobs, scenes, poses }) => {
+    const root = document.querySelector('.stage'), say = root.querySelector('.stage-say'),
+        canvas = root.querySelector('canvas'), trouble = root.querySelector('.stage-trouble'),
+        report = [], home = structuredClone(panel.get('state'));
+    const frame = () => new Promise((done) => requestAnimationFrame(done));
+    async function look(at) {
+        let frames = 0;
+        do await frame(); while (root.dataset.done !== 'true' && (frames += 1) < 600);
+        const [shown] = [...say.querySelectorAll('[data-on=true]')].map((it) => it.dataset.kind);
+        report.push({ at, shown, frames, text: say.textContent, trouble: trouble.textContent,
+            high: [say.offsetHeight, root.offsetHeight], alt: canvas.ariaLabel });
+    }
+    const picture = async () => { await frame(); return canvas.toDataURL(); };
+    for (const { name, ask } of scenes) {
+        root.stage.show(name);
+        await look(`scene ${name}`);
+        for (const k of ask ? ask.answers.keys() : []) {
+            root.stage.show(name);
+            await look(`${name} asks`);
+            say.querySelectorAll('[data-on=true] .stage-chip')[k].click();
+            await look(`${name} answered by ${k}`);
+        }
+    }
+    const still = {};
+    for (const { name, choices, low, high } of knobs) {
+        root.stage.show(scenes[0].name);
+        await look('as it opens');
+        const row = root.querySelector(`[data-control=${name}]`), pictures = [];
+        for (const k of choices ? choices.keys() : [low, (low + high) / 2, high]) {
+            if (choices) row.querySelectorAll('.stage-chip')[k].click();
+            else {
+                const typed = row.querySelector('.wmr-typed');
+                typed.value = String(k);
+                typed.dispatchEvent(new Event('change'));
+            }
+            await look(`${name} ${choices ? choices[k][0] : k}`);
+            pictures.push(await picture());
+        }
+        still[name] = new Set(pictures).size === 1;
+    }
+    const at = (start, x, y, turn) => [start[0] + x, start[1] + y, start[2] + turn];
+    if (poses.start && poses.goal)
+        for (const [x, y, turn] of [[0, 0, 0], [0, 0, 1], [1e-4, 0, 2], [0.02, 0, 0], [2, -3, -2],
+            [400, -300, 1], [-1, 0, 0]]) {
+            panel.set('state', { ...home, start: at(poses.goal, x, y, turn) });
+            await look(`start ${x}, ${y}, ${turn} off the goal`);
+        }
+    return { report, still };
+}"""
+
+
+@pytest.mark.needs("npm")
+def test_whatever_a_hand_does_a_stage_says_what_came_out(browser_page):
+    browser_page.add_init_script(QUICK)
+    for name in NAMES:
+        stage = getattr(stages, name)()
+        mounted(browser_page, stage, width=620, motion="no-preference")
+        tried = browser_page.evaluate(TRIED, stage.setup)
+        for seen in tried["report"]:
+            where = f"{name}, {seen['at']}"
+            assert seen["frames"] < 600, f"{where}: the film does not end"
+            assert not seen["trouble"], f"{where}: {seen['trouble']}"
+            assert not UNSOUND.search(seen["text"]), f"{where}: {seen['text']}"
+            assert len(seen["alt"].split()) > 8, where
+            assert seen["high"] == tried["report"][0]["high"], f"{where}: the box grows"
+            if "answered" in seen["at"]:
+                assert seen["shown"] == "verdict", where
+        idle = [knob for knob, still in tried["still"].items() if still]
+        assert not idle, f"{name}: {idle} change nothing"
+        assert not violations(browser_page, ".stage")
+
+
+def test_a_goal_that_is_dragged_onto_the_start_is_reached_at_once(browser_page):
+    panel = mounted(browser_page, stages.first_drive(), width=620)
+    page, start = browser_page, panel.handle("start", "move").bounding_box()
+    goal = panel.handle("goal", "move").bounding_box()
+    panel.drag(panel.handle("goal", "move"), start["x"] - goal["x"], start["y"] - goal["y"])
+    assert panel.get("goal")[:2] == pytest.approx(panel.get("start")[:2], abs=0.5)
+    assert not UNSOUND.search(page.locator(".stage-say").inner_text())

@@ -1,0 +1,82 @@
+"""The stages that open the chapters, as Python makes them: scenes, handles, and computed answers."""
+
+from __future__ import annotations
+
+import math
+import sys
+
+import pytest
+
+pytest.importorskip("anywidget", reason="what moves needs anywidget")
+from wmrbook import stages
+
+NAMES = sorted(set(stages.__all__) - stages.PARTS)
+
+
+def _asked(stage) -> dict:
+    """Return what a stage asks: the answers and their key, by scene."""
+    return {it["name"]: it["ask"] for it in stage.setup["scenes"] if it["ask"]}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_stage_opens_with_any_of_its_scenes_and_with_no_other(name):
+    make = getattr(stages, name)
+    listed = [scene["name"] for scene in make().setup["scenes"]]
+    assert make().state["scene"] == listed[0]
+    assert len(listed) > 1
+    for scene in listed:
+        assert make(scene).state["scene"] == scene
+    with pytest.raises(ValueError, match=f"scene = 'nowhere' is not allowed.*{listed[0]}"):
+        make("nowhere")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_handle_goes_where_it_may_and_refuses_the_rest_by_name(name):
+    stage = getattr(stages, name)()
+    for knob in stage.setup["knobs"]:
+        called = knob["name"]
+        if "choices" in knob:
+            allowed, refused = [value for value, _ in knob["choices"]], ["nothing"]
+        else:
+            low, high = knob["low"], knob["high"]
+            allowed, refused = [low, high], [low - 1, high + 1, math.nan, "1"]
+        for value in allowed:
+            stage[called] = value
+            assert stage[called] == stage.state[called] == value
+        for value in refused:
+            with pytest.raises((ValueError, TypeError), match=called):
+                stage[called] = value
+    with pytest.raises(ValueError, match="knob = 'k_beta' is not allowed"):
+        stage["k_beta"] = 1.0
+
+
+FLIPS = {  # what a stage's module takes from wmrlib, and the same with a flipped sign
+    "first_drive simulate": lambda f: lambda a, b, k, **o: f(a, b, _turned_twice(k), **o),
+}
+
+
+def _turned_twice(gains):
+    """Return gains of which the doubled one is half as large."""
+    return gains._replace(k_alpha=gains.k_alpha if gains.k_alpha < 2 else 0.5)
+
+
+def test_every_question_is_asked_of_wmrlib():
+    asking = {name for name in NAMES if _asked(getattr(stages, name)())}
+    assert asking == {flipped.split()[0] for flipped in FLIPS}
+
+
+@pytest.mark.parametrize("flipped", FLIPS)
+def test_the_right_answer_follows_from_the_library(monkeypatch, flipped):
+    name, of = flipped.split()
+    module = sys.modules[getattr(stages, name).__module__]
+    before = _asked(getattr(stages, name)())
+    monkeypatch.setattr(module, of, FLIPS[flipped](getattr(module, of)))
+    after = _asked(getattr(stages, name)())
+    assert [ask["key"] for ask in before.values()] != [ask["key"] for ask in after.values()]
+
+
+def test_where_nothing_runs_a_stage_says_where_its_handles_stand():
+    for name in NAMES:
+        stage = getattr(stages, name)()
+        assert repr(stage).startswith("A stage: run this cell")
+        assert all(knob["says"] in repr(stage) for knob in stage.setup["knobs"])
