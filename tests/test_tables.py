@@ -56,8 +56,15 @@ def test_decimals_stand_below_one_another():
 
 
 def test_the_largest_number_of_a_column_has_three_digits_and_whole_numbers_no_decimals():
-    columns = {"k_rho": [0.25, 2.0], "t": [15.53, 9.0], "x": [0.1264, 0.01], "n": [1000, -2.0]}
-    assert repr(table(columns)).splitlines()[2].split() == ["2", "9.0", "0.010", "-2"]
+    columns = {
+        "k_rho": [0.25, 2.0],
+        "t": [15.53, 9.0],
+        "x": [0.1264, 0.01],
+        "n": [1000, -2.0],
+        "d": [0.4, "no"],
+    }
+    assert repr(table(columns)).splitlines()[1].split()[-1] == "0.4"
+    assert repr(table(columns)).splitlines()[2].split() == ["2", "9.0", "0.010", "-2", "no"]
 
 
 def test_no_number_infinity_and_a_rounded_zero():

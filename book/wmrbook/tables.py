@@ -75,8 +75,8 @@ def table(
     ----------
     columns : from a heading, with its unit, to the numbers or texts below it, one a row
     formats : str, how numbers are written, such as ".1f", or a mapping from headings to such texts.
-        A column that it does not name has as many decimals as give its largest number three digits;
-        the first has those that its numbers need.
+        A column that it does not name has as many decimals as give its largest number three digits,
+        or fewer where they would be zeros; the first has those that its numbers need.
     caption : str, what the table shows
 
     Returns
@@ -110,7 +110,7 @@ def table(
     texts, numeric = {}, set()
     for name, values in columns.items():
         numbers = [value for value in values if _is_number(value) and math.isfinite(value)]
-        if all(value is None or _is_number(value) for value in values):
+        if any(map(_is_number, values)):
             numeric.add(name)
         form = formats.get(name) or (_three_digits(numbers) if texts else "g")
         texts[name] = [_written(value, form, name) for value in values]
@@ -122,11 +122,12 @@ def _is_number(value: Any) -> bool:
 
 
 def _three_digits(numbers: list[Any]) -> str:
-    """The format of a column: whole numbers as they are, else three digits for the largest."""
-    if all(abs(value - round(value)) < 1e-9 for value in numbers):
-        return ".0f"
-    largest = max(map(abs, numbers))
-    return f".{min(max(2 - math.floor(math.log10(largest)), 0), 6)}f"
+    """The format of a column: three digits for the largest number, no decimals that are all 0."""
+    largest = max(map(abs, numbers), default=0.0) or 1.0
+    decimals = min(max(2 - math.floor(math.log10(largest)), 0), 6)
+    while decimals and all(abs(it - round(it, decimals - 1)) < 1e-9 for it in numbers):
+        decimals -= 1
+    return f".{decimals}f"
 
 
 def _written(value: Any, form: str, column: str) -> str:
