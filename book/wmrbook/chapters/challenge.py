@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wmrbook.tables import Table
+from wmrbook.tables import table
 from wmrlib.body import Wheels, checked_wheels
 from wmrlib.checks import instance, scalar
 from wmrlib.gains import Gains
@@ -165,10 +165,14 @@ class Score:
         for k, (kind, *numbers, note) in enumerate(self.cases, 1):
             yield str(k), kind, *map(format, numbers, _SHOWN), note
 
-    def _repr_markdown_(self) -> str:
-        head = repr(self).splitlines()[0][1:-1].replace("_", r"\_")
-        lines = (f"{' | '.join(row)} {note}" for *row, note in self._rows())
-        return f"{head}\n\n{Table(' | '.join(_HEAD), lines)}"
+    def _repr_html_(self) -> str:
+        *values, notes = zip(*self.cases, strict=True)
+        rows = range(1, len(notes) + 1)
+        columns = dict(zip(_HEAD, (rows, *values), strict=True))
+        if any(notes):
+            columns["reached"] = [note or "yes" for note in notes]
+        caption = repr(self).splitlines()[0][1:-1]
+        return table(columns, dict(zip(_HEAD[2:], _SHOWN, strict=True)), caption)._repr_html_()
 
     @property
     def reached(self) -> int:
