@@ -1,4 +1,4 @@
-"""The stages that open the chapters, as Python makes them: scenes, handles, and computed answers."""
+"""The stages that open the chapters, as Python makes them: scenes, handles, computed answers."""
 
 from __future__ import annotations
 
@@ -50,14 +50,16 @@ def test_a_handle_goes_where_it_may_and_refuses_the_rest_by_name(name):
         stage["k_beta"] = 1.0
 
 
-FLIPS = {  # what a stage's module takes from wmrlib, and the same with a flipped sign
-    "first_drive simulate": lambda f: lambda a, b, k, **o: f(a, b, _turned_twice(k), **o),
-}
-
-
 def _turned_twice(gains):
     """Return gains of which the doubled one is half as large."""
     return gains._replace(k_alpha=gains.k_alpha if gains.k_alpha < 2 else 0.5)
+
+
+FLIPS = {  # what a stage's module takes from wmrlib, and the same with a flipped sign
+    "first_drive simulate": lambda f: lambda a, b, k, **o: f(a, b, _turned_twice(k), **o),
+    "two_wheels advance": lambda f: lambda *to: f(*to)._replace(y=-f(*to).x),
+    "three_numbers simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(h=2.0), **o),
+}
 
 
 def test_every_question_is_asked_of_wmrlib():

@@ -15,5 +15,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "parts": sorted(PARTS),
         "first_drive": ["first_drive"],
+        "two_wheels": ["two_wheels"],
+        "three_numbers": ["three_numbers"],
     },
 )

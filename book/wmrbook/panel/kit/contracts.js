@@ -29,4 +29,6 @@ export const CONTRACTS = {
   'live/window': 'e15e2e19',
   'live/x_axis': '7a0abe19',
   'stages/first_drive': '092554ab',
+  'stages/three_numbers': '2ab00e1d',
+  'stages/two_wheels': 'b9859633',
 };

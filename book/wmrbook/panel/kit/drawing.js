@@ -12,5 +12,5 @@ export { stage } from './stage.js';
 export { modes, polesOf, summarise } from './simulate.js';
 export { normals } from './random.js';
 export { inReach, onStops } from './controls.js';
-export { ratesOfV } from './law.js';
+export { ratesOfV, twistOf } from './law.js';
 export { roundBelow } from './lawn.js';

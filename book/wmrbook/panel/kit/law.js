@@ -12,6 +12,10 @@ export function controlLaw(rho, alpha, theta, gains, law = 'corrected', vRef = 0
   return twist;
 }
 
+/** The twist of two wheels so far apart. @param {number} left @param {number} right */
+export const twistOf = (left, right, width) =>
+    ({ v: (left + right) / 2, omega: (right - left) / width });
+
 /** What the distance and what the angles add to the rate of V, (19). @param {Point} command */
 export function ratesOfV([vOverRho, omega], rho, alpha, theta, h, L = 1) {
   const [nearer, turning, sweeping] = polarClosingRate(rho, alpha, vOverRho, omega);

@@ -1,8 +1,9 @@
 // Runs of the robot as the drawings ask for them, kept while only the time moves.
 
 import { ARRIVED } from './setup.js';
-import { arcStep } from './model.js';
+import { arcStep, wrap } from './model.js';
 import { drive, simulate, summarise } from './simulate.js';
+import { inDegrees, written } from './style.js';
 import { nearest } from './numbers.js';
 
 // A function of what JSON can say that keeps its last answer: a run need not be driven anew while
@@ -40,6 +41,14 @@ export function heldRun({ start, goal, gains, dt, radius, steps, ...odd }) {
   return { poses, twists, arrived: outcome === ARRIVED };
 }
 export const poseAt = (run, k) => [run.x[k], run.y[k], run.heading[k]];
+
+/** How a run ends, after "It". @param {Run} run @param {Pose} goal */
+export function endOf(run, goal) {
+  const last = run.n - 1, off = inDegrees(Math.abs(wrap(run.heading[last] - goal[2])), 0);
+  return run.outcome === 'ARRIVED'
+      ? `stops after ${written(run.t[last], 's')}, ${off} off its heading`
+      : `is still ${written(run.rho[last], 'm')} away after a minute`;
+}
 
 // Gains between two others, by their logarithms.
 export const blended = (from, to, share) => Object.fromEntries(Object.keys(from)

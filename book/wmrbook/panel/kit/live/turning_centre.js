@@ -1,6 +1,6 @@
 // Two wheel speeds make a speed and a turning rate, and the point about which the robot turns.
 
-import { live, onStops, ring, written } from '../drawing.js';
+import { live, onStops, ring, twistOf, written } from '../drawing.js';
 
 const motion = (v, omega, centre) =>
     (omega ? `It turns about a point ${written(centre, 'm')} to its left.` : v
@@ -8,7 +8,7 @@ const motion = (v, omega, centre) =>
 
 export default live('turning_centre', {
   find: ({ left, right }, { data: { track } }) => {
-    const v = (left + right) / 2, omega = (right - left) / track;
+    const { v, omega } = twistOf(left, right, track);
     return { v, omega, centre: v / omega, wheels: [[left, track / 2], [right, -track / 2]] };
   },
   panes: (values, { v, omega, centre }) => ({ plane: {

@@ -1,0 +1,59 @@
+"""Chapter 2: two motors make a speed and a turning rate, and nothing to the side."""
+
+from __future__ import annotations
+
+from wmrbook.live.parts import Knob
+from wmrbook.stages.parts import Question, Scene, Stage
+from wmrlib import Pose, advance, wheels_to_twist
+
+TRACK_WIDTH = 0.5  # m, of the robot that is drawn
+SECONDS = 3.0  # a drive
+MOST = 0.6  # m/s, of a wheel
+TWIST = "Two motors make two numbers, *v* = {speed} ahead and *omega* = {turning}. "
+
+
+def two_wheels(scene: str = "arc") -> Stage:
+    """Return the robot from above, with a slider for each wheel, as one of its scenes."""
+    speeds = [-MOST, -MOST / 2, 0.0, MOST / 2, MOST]
+    pairs = [(left, right) for left in speeds for right in speeds]
+    moves = {
+        "never": all(_sideways(*pair) < 1e-6 for pair in pairs),
+        "if the wheels turn against each other": _sideways(-MOST, MOST) > 1e-6,
+        "if one wheel stands still": _sideways(0.0, MOST) > 1e-6,
+    }
+    verdict = (
+        "whatever the wheels do, it moves only where it points, and it turns. Here it turns on "
+        "the spot. To get to its side, it needs several moves."
+    )
+    scenes = {
+        "arc": Scene(f"{TWIST}Can it move sideways?"),
+        "straight": Scene(f"{TWIST}It {{does}}.", to={"left": 0.4, "right": 0.4}),
+        "spot": Scene(f"{TWIST}It {{does}}.", to={"left": -0.3, "right": 0.3}),
+        "ask": Scene(
+            f"{TWIST}It {{does}}.",
+            still=True,
+            ask=Question(
+                "It moves straight to its side",
+                dict.fromkeys(moves, verdict),
+                next(answer for answer, right in moves.items() if right),
+                {"left": -0.3, "right": 0.3},
+            ),
+        ),
+        "aside": Scene(
+            "The arc, its mirror image, and straight back. The robot ends {aside} to its side.",
+            shows=("moves",),
+        ),
+    }
+    knobs = {
+        name: Knob(value, -MOST, MOST, 0.05, f"speed of the {name} wheel", "m/s", label=name)
+        for name, value in (("left", 0.3), ("right", 0.5))
+    }
+    data = {"track_width": TRACK_WIDTH, "seconds": SECONDS}
+    return Stage("two_wheels", knobs, scenes, scene, data=data)
+
+
+def _sideways(left: float, right: float) -> float:
+    """Return how fast the robot moves to its left or right, m/s."""
+    v, omega = wheels_to_twist(left, right, TRACK_WIDTH)
+    instant = 1e-9  # s
+    return abs(advance(Pose(0.0, 0.0, 0.0), v, omega, instant).y) / instant
