@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import sys
 
+import numpy as np
 import pytest
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
@@ -50,16 +51,30 @@ def test_a_handle_goes_where_it_may_and_refuses_the_rest_by_name(name):
         stage["k_beta"] = 1.0
 
 
+FLIPS = {  # what a stage's module takes from wmrlib, and the same with a flipped sign
+    "first_drive simulate": lambda f: lambda a, b, k, **o: f(a, b, _turned_twice(k), **o),
+    "two_wheels advance": lambda f: lambda *to: f(*to)._replace(y=-f(*to).x),
+    "three_numbers simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(h=2.0), **o),
+    "late_looks simulate": lambda f: lambda *a, dt, **o: f(*a, dt=0.002 / dt, **o),
+    "noisy_fixes sweep": lambda f: lambda a, b, k, **o: f(a, b, _turned_thrice(k), **o),
+    "as_printed simulate": lambda f: lambda *a, law, **o: f(*a, law=OTHER[law], **o),
+    "crooked_compass control_law": lambda f: lambda r, a, *o: f(r, a + math.radians(12), *o),
+    "standing_still fixes": lambda f: lambda: np.random.default_rng(1).normal(size=f().shape),
+    "race_of_laws simulate": lambda f: lambda *a, law, **o: f(*a, law=OTHER.get(law, law), **o),
+    "course_from_gps polar_error": lambda f: lambda a, b: f(a, b._replace(x=b.x.clip(2, 3))),
+    "seam lyapunov": lambda f: lambda r, a, theta, h: f(r, a, max(theta, 0.0), h),
+}
+OTHER = {"corrected": "printed", "printed": "corrected"}
+
+
 def _turned_twice(gains):
     """Return gains of which the doubled one is half as large."""
     return gains._replace(k_alpha=gains.k_alpha if gains.k_alpha < 2 else 0.5)
 
 
-FLIPS = {  # what a stage's module takes from wmrlib, and the same with a flipped sign
-    "first_drive simulate": lambda f: lambda a, b, k, **o: f(a, b, _turned_twice(k), **o),
-    "two_wheels advance": lambda f: lambda *to: f(*to)._replace(y=-f(*to).x),
-    "three_numbers simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(h=2.0), **o),
-}
+def _turned_thrice(gains):
+    """Return gains of which three times as many are a third."""
+    return gains._replace(k_alpha=12.0 / gains.k_alpha)
 
 
 def test_every_question_is_asked_of_wmrlib():

@@ -17,5 +17,13 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "first_drive": ["first_drive"],
         "two_wheels": ["two_wheels"],
         "three_numbers": ["three_numbers"],
+        "late_looks": ["late_looks"],
+        "noisy_fixes": ["noisy_fixes"],
+        "as_printed": ["as_printed"],
+        "crooked_compass": ["crooked_compass"],
+        "standing_still": ["standing_still"],
+        "race_of_laws": ["race_of_laws"],
+        "course_from_gps": ["course_from_gps"],
+        "seam": ["seam"],
     },
 )

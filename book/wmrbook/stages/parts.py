@@ -133,8 +133,11 @@ def gain_knobs(gains: Gains) -> dict[str, Knob]:
     }
 
 
-GENTLE = {name: getattr(GENTLE_GAINS, name) for name in ("k_rho", "k_alpha", "h")}
-"""Where the sliders stand for the gentle gains."""
+GENTLE, PAPER = (
+    {name: getattr(gains, name) for name in ("k_rho", "k_alpha", "h")}
+    for gains in (GENTLE_GAINS, paper.OUTDOOR_GAINS)
+)
+"""Where the sliders stand for the gentle gains and for the paper's."""
 
 
 def paper_drive() -> dict[str, Pose]:

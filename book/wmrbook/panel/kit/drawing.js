@@ -4,7 +4,7 @@ export * from './camera.js';
 export * from './model.js';
 export * from './numbers.js';
 export * from './runs.js';
-export { DEGREES, complex, inDegrees, written } from './style.js';
+export { DEGREES, complex, inDegrees, inWords, written } from './style.js';
 export { disc, inside } from './surface.js';
 export { driveContinuously } from './continuous.js';
 export { live } from './live.js';

@@ -40,6 +40,32 @@ export function heldRun({ start, goal, gains, dt, radius, steps, ...odd }) {
   });
   return { poses, twists, arrived: outcome === ARRIVED };
 }
+
+// A held run as the track of a stage, with places between its ticks.
+/** @param {Values} run @param {number} dt */
+export function trackOf({ poses, twists }, dt, role = 'path') {
+  const parts = Math.max(1, Math.ceil(dt / 0.1 - 1e-9)), n = (poses.length - 1) * parts + 1;
+  const places = Array.from({ length: n }, (_, i) => {
+    const k = Math.floor(i / parts), part = i % parts;
+    return part ? arcStep(...poses[k], ...twists[k], dt * part / parts) : poses[k];
+  });
+  const [x, y, heading] = [0, 1, 2].map((i) => places.map((pose) => pose[i]));
+  return { t: places.map((_, i) => i * dt / parts), x, y, heading, n, role };
+}
+
+// A short way, in words.
+export const inSize = (metres) => (metres < 0.995 ? written(100 * metres, 'cm', 2)
+  : written(metres, 'm', 2));
+
+// How a held run ends, in words.
+/** @param {Values} run @param {Pose} goal */
+export function endsOf({ poses, arrived }, goal) {
+  const [x, y, heading] = poses.at(-1), off = inDegrees(Math.abs(wrap(heading - goal[2])), 0),
+      far = inSize(Math.hypot(x - goal[0], y - goal[1]));
+  return { off, far, ends: arrived ? `stops ${far} from its goal, ${off} off`
+    : 'has not stopped after a minute' };
+}
+
 export const poseAt = (run, k) => [run.x[k], run.y[k], run.heading[k]];
 
 /** How a run ends, after "It". @param {Run} run @param {Pose} goal */

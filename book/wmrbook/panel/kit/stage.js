@@ -29,7 +29,8 @@ const ease = (share) => share * share * (3 - 2 * share);
  *   look(values, found, setup, how): what the camera shows, [left, bottom, right, top] in metres,
  *     where that is neither all of the way ("whole") nor the goal ("near");
  *   draw(pane, values, found, now, setup): what is on the lawn beside paths and robots; `now` has
- *     the time, the scene, what it `shows`, the robot's `pose` and its sample `k`.
+ *     the time, the scene, what it `shows`, the robot's `pose` and its sample `k`;
+ *   above(the same): what is above the robots.
  * @param {string} name @param {Play} play
  */
 export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) => {
@@ -249,6 +250,7 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
     if (play.draw) play.draw(pane, state, found, now, setup);
     if (!it.empty)
       found.tracks.forEach(({ role }, k) => pane.robot(sampled[k].pose, 1, { size, role }));
+    if (play.above) play.above(pane, state, found, now, setup);
     if (goal) pane.pose(goal, 'goal');
     const off = goal ? wrap(now.pose[2] - goal[2]) : 0;
     if (close && done && Math.abs(off) > PARKED && !it.empty)

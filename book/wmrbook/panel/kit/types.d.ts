@@ -96,6 +96,7 @@ type Play = {
   say(values: Values, found: any, setup: any): Record<string, string | number>;
   look?(values: Values, found: any, setup: any, how: string): number[] | null;
   draw?(pane: Pane, values: Values, found: any, now: any, setup: any): void;
+  above?(pane: Pane, values: Values, found: any, now: any, setup: any): void;
 };
 
 /** A widget's model, as anywidget gives it. */
