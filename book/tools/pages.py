@@ -13,6 +13,7 @@ r"""A Sphinx extension: what readers of the pages need and the theme leaves out.
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import html
 import json
@@ -56,6 +57,13 @@ DESIGN = re.compile(
 )
 # An icon in the theme's script: name: [width, height, [other names], code, path].
 ICON = re.compile(r'"?([\w-]+)"?:\[\d+,\d+,(\[[^\]]*\]),"[0-9a-f]+",(?:"[^"]*"|\[[^\]]*\])\],?')
+STATES = re.compile(
+    r'(?<=<script type="application/vnd.jupyter.widget-state\+json">)(.*?)(?=</script>)', re.DOTALL
+)
+VIEW = re.compile(
+    r'<script type="application/vnd.jupyter.widget-view\+json">\s*(\{.*?\})\s*</script>', re.DOTALL
+)
+STILL = re.compile(r'<img alt="(?P<alt>[^"]*)" .*?src="data:image/png;base64,(?P<png>[^"]*)"')
 # From a page's HTML to the words to be found, with the sections that results lead to.
 ARTICLE = re.compile(r'<article class="bd-article">(.*?)</article>', re.DOTALL)
 UNSPOKEN = re.compile(
@@ -189,6 +197,7 @@ def mend(app, exception):
             text = DESIGN.sub("", text)
         for count, model in enumerate(dict.fromkeys(MODEL.findall(text)), 1):  # named at random
             text = text.replace(model, f"widget-{count:03}")
+        text = with_stills(text, Path(app.outdir), "../" * name.count("/"))
         path.write_text(text, encoding="utf-8")
         if name in app.env.found_docs:
             plain = FORMULA.sub(_in_letters, UNSPOKEN.sub("", ARTICLE.search(text)[1]))
@@ -196,6 +205,28 @@ def mend(app, exception):
     _thin_icons(Path(app.outdir))
     script = f"const PAGES = {json.dumps(words, ensure_ascii=False)};\n"
     Path(app.outdir, "_static", "words.js").write_text(script, encoding="utf-8")
+
+
+def with_stills(text: str, site: Path, up: str) -> str:
+    """Let the pictures of a page's panels be files, for a browser without JavaScript."""
+    stills = {}
+
+    def without(states: re.Match) -> str:
+        stored = json.loads(states[0])
+        for model, it in stored["state"].items():
+            stills[model] = STILL.search(it["state"].pop("still", ""))
+        return json.dumps(stored).replace("</", "<\\/")
+
+    def pictured(view: re.Match) -> str:
+        if not (still := stills.get(json.loads(view[1])["model_id"])):
+            return view[0]
+        picture = base64.b64decode(still["png"])
+        name = f"_images/still-{hashlib.sha256(picture).hexdigest()[:12]}.png"
+        (site / name).parent.mkdir(exist_ok=True)
+        (site / name).write_bytes(picture)
+        return f'{view[0]}<noscript><img alt="{still["alt"]}" src="{up}{name}"></noscript>'
+
+    return VIEW.sub(pictured, STATES.sub(without, text))
 
 
 def _in_letters(formula: re.Match) -> str:

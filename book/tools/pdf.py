@@ -62,6 +62,8 @@ def give_states(page: Path, notebooks: list[Path]) -> None:
     for notebook in notebooks:
         widgets = json.loads(notebook.read_text(encoding="utf-8"))["metadata"].get("widgets", {})
         states |= widgets.get(STATE, {}).get("state", {})
+    for it in states.values():
+        it["state"].pop("still", None)  # the panels themselves are printed
     stored = json.dumps({"state": states}).replace("</", "<\\/")
     text = page.read_text(encoding="utf-8")
     script = f'<script type="{STATE}">{stored}</script></body>'

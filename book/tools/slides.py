@@ -130,6 +130,7 @@ def pictured(data: dict, stored: dict, settings: Iterable[str]) -> str:
     """Return the HTML of an output: a panel with its state, or a figure for light and dark."""
     if VIEW in data:
         model = json.loads(json.dumps(stored["state"][data[VIEW]["model_id"]]))
+        model["state"].pop("still", None)  # a deck has nothing that can't run
         place(model["state"]["state"], model["state"]["setup"], settings)
         scripts = (
             f'<script type="{kind}">{json.dumps(it).replace("<", SAFE)}</script>'

@@ -115,11 +115,15 @@ def test_search_finds_the_page_that_says_it_most_and_shows_formulas_as_letters(o
 
 
 class Parts(HTMLParser):
-    """What a page names: its anchors, where it points, and what its images say."""
+    """What a page names: its anchors, where it points, and what its images say.
+
+    Those of the panels, for a browser without JavaScript, are apart: they have no caption.
+    """
 
     def __init__(self, path: Path):
         super().__init__()
         self.anchors, self.targets, self.texts = set(), set(), []
+        self.stills, self.apart = [], False
         self.feed(path.read_text(encoding="utf-8"))
 
     def handle_starttag(self, tag, attrs):
@@ -127,7 +131,11 @@ class Parts(HTMLParser):
         self.anchors |= {named[name] for name in ("id", "name") if name in named}
         self.targets |= {named[name] for name in ("href", "src") if name in named}
         if tag == "img" and "only-dark" not in named.get("class", ""):  # else it is shown twice
-            self.texts.append(named.get("alt", ""))
+            (self.stills if self.apart else self.texts).append(named.get("alt", ""))
+        self.apart |= tag == "noscript"
+
+    def handle_endtag(self, tag):
+        self.apart &= tag != "noscript"
 
 
 parts_of = functools.cache(Parts)
@@ -216,7 +224,7 @@ def test_pages_and_search_have_neither_the_guide_nor_solutions(site):
 def test_every_image_says_what_it_shows_and_has_a_caption(site):
     for path in pages(site):
         page = parts_of(path)
-        for text in page.texts:
+        for text in (*page.texts, *page.stills):
             assert len(text.split()) > 3, f"{path.name}: {text!r} is no alternative text"
         captions = [anchor for anchor in page.anchors if anchor.startswith("figure-")]
         assert len(captions) == len(page.texts), path.name

@@ -167,6 +167,6 @@ class Live(Knobs):
         super().__init__(f"live/{name}", self.places() | {"guess": None}, setup)
 
     def __repr__(self) -> str:
-        """What stands there where nothing runs; the sentence needs numbers that the page finds."""
+        """Where the knobs stand; the sentence needs numbers that the page finds."""
         stands = (f"{it.says}: {it.shown(self[name])}" for name, it in self._knobs.items())
-        return f"A live figure: run this cell to move it. It begins with {'; '.join(stands)}."
+        return f"A live figure, which begins with {'; '.join(stands)}."

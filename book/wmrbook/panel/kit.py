@@ -1,14 +1,15 @@
 """The kit: ES modules that panels are made of, and how a page gets at them.
 
-A notebook stores of a panel the name of its program, the contract of what it stores, and what it
-stores; not the program. `loader.js` finds it in the page, where the book's own pages and slides
-have all of the kit as one script, on a Jupyter server that says where it serves the kit, or else in
-the kernel, which sends the modules.
+A notebook stores of a panel the name of its program, the contract of what it stores, what it stores
+and a still picture; not the program. `loader.js` finds it in the page, where the book's own pages
+and slides have all of the kit as one script, on a Jupyter server that says where it serves the kit,
+or else in the kernel, which sends the modules.
 """
 
 from __future__ import annotations
 
 import hashlib
+import html
 import json
 from pathlib import Path
 from typing import Any
@@ -16,9 +17,10 @@ from typing import Any
 import anywidget
 import traitlets
 
+from wmrbook.panel import stills
 from wmrbook.panel.derived import Derived
+from wmrbook.panel.stills import KIT
 
-KIT = Path(__file__).with_name("kit")
 STYLE = KIT / "panel.css"
 LOADER = Path(__file__).with_name("loader.js").read_text(encoding="utf-8")
 
@@ -57,12 +59,20 @@ class Panel(anywidget.AnyWidget):
     contract = traitlets.Unicode().tag(sync=True)
     state = traitlets.Dict().tag(sync=True)
     setup = traitlets.Dict().tag(sync=True)
+    still = traitlets.Unicode().tag(sync=True)
 
     def __init__(self, program: str, state: dict[str, Any], setup: dict[str, Any]):
         stored = {"contract": contract(state, setup), "state": state, "setup": setup}
         super().__init__(program=program, **stored)
         self.add_class("jupyter-widgets")
         self.on_msg(self._answer)
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> tuple[dict, dict]:
+        """The panel, and what stands in its place where it can't run: see `stills`."""
+        self.still = stills.still(self.program, self.state, self.setup)
+        data, metadata = super()._repr_mimebundle_(**kwargs)
+        there = self.still or f"<p>{html.escape(repr(self))}</p><p>{stills.RUN_IT}</p>"
+        return data | {"text/html": there, "text/plain": stills.words_of(there)}, metadata
 
     def __setattr__(self, name: str, value: Any) -> None:
         if not name.startswith("_") and not hasattr(type(self), name):

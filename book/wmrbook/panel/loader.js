@@ -68,7 +68,9 @@ export default {
   },
   async render(context) {
     const { model, el } = context;
-    if (!kitAddress()) el.textContent = 'Run this cell: its panel comes from the kernel.';
+    // Stands there until the program comes, for ever where there is none: a page without a kernel.
+    if (!kitAddress() && !page[model.get('program')])
+      el.innerHTML = model.get('still') || 'Run this notebook to move what is here.';
     try {
       const program = await found(model);
       el.textContent = '';

@@ -100,9 +100,9 @@ class Stage(Knobs):
         super().__init__(f"stages/{name}", state, setup)
 
     def __repr__(self) -> str:
-        """What stands there where nothing runs."""
+        """Where the knobs stand."""
         stands = (f"{it.says}: {it.shown(self[name])}" for name, it in self._knobs.items())
-        return f"A stage: run this cell to move it. It begins with {'; '.join(stands)}."
+        return f"A stage, which begins with {'; '.join(stands)}."
 
     def _listed(self, key: str, scene: Scene) -> dict[str, Any]:
         """Return a scene as the page has it."""
