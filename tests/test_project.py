@@ -16,7 +16,7 @@ from lecturers import closed
 from packaging.requirements import Requirement
 from pybtex.database import parse_file
 
-from wmrbook import live
+from wmrbook import live, stages
 from wmrbook.panel import Explorer
 
 ROOT = Path(__file__).parent.parent
@@ -253,7 +253,11 @@ def test_a_chapters_equations_are_numbered_in_order():
 
 def test_the_stored_panels_are_those_of_now():
     """Else run book/tools/run.py: without their state a reader sees no panel before it is run."""
-    things = [getattr(live, name)() for name in set(live.__all__) - live.PARTS]
+    things = [
+        getattr(house, name)()
+        for house in (live, stages)
+        for name in set(house.__all__) - house.PARTS
+    ]
     now = {it.program: (it.contract, it._esm) for it in (Explorer(), *things)}
     for name, notebook in CHAPTERS.items():
         state = notebook.metadata.get("widgets", {}).get(STATE, {}).get("state", {})
