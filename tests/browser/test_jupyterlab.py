@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 
 import nbformat
@@ -151,12 +152,20 @@ def test_the_first_chapter_lives_before_it_is_run_and_after_it_is_saved(lab, bro
 
 
 @pytest.mark.slow
-def test_without_the_books_settings_a_panel_comes_from_the_kernel(tmp_path, browser_page):
+def test_without_the_books_settings_a_picture_waits_and_the_panel_comes_from_the_kernel(
+    tmp_path, browser_page
+):
     page = browser_page
     (tmp_path / "notebooks").mkdir()
     shutil.copy(ROOT / CHAPTER, tmp_path / CHAPTER)
     with jupyterlab(tmp_path, "--IdentityProvider.token=bare") as url:
         open_notebook(page, f"{url}lab/tree/{CHAPTER}?token=bare", CHAPTER)
+        # what it does not trust it shows as a picture
+        page.locator(".wmr-still img").first.wait_for(timeout=PATIENCE)
+        assert page.locator(".wmr").count() == 0
+        stills = page.locator(".wmr-still").all()
+        assert all(re.search(r"\d.* Run this cell to move it", words(it)) for it in stills)
+        assert all(it.locator("img").get_attribute("alt") for it in stills)
         page.evaluate(RUN_ALL)
         assert_slider_matters(page, sliders(page)[0])
         page.goto("about:blank")  # before its server ends
@@ -171,6 +180,10 @@ def test_a_graded_exercise_shows_its_hint_and_nothing_leaves(lab, browser_page):
     hint.wait_for(timeout=PATIENCE)
     assert MISTAKE in hint.inner_text()
     assert "book/wmrbook/grading" not in hint.inner_text()
+
+
+def words(place) -> str:
+    return " ".join(place.inner_text().split())
 
 
 def run(page, cell: int) -> None:
