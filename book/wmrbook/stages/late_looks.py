@@ -25,7 +25,7 @@ def late_looks(scene: str = "whole") -> Stage:
     seen = f"it is {key}, {{off}} instead of {seldom:.0f}°."
     scenes = {
         "whole": Scene(
-            "Between two looks its eyes are closed. How long may they be? "
+            "From one look to the next it drives blind. How long may it close its eyes? "
             "After {looks} looks it {ends}."
         ),
         "near": Scene("The last metre. After {looks} looks it {ends}.", look="near"),

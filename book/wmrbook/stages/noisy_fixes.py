@@ -36,7 +36,9 @@ def noisy_fixes(scene: str = "whole") -> Stage:
             still=True,
             ask=Question(
                 "If it turns three times as fast towards what it sees, it stops",
-                dict.fromkeys(("less crooked", "more crooked"), "it {ends}."),
+                dict.fromkeys(
+                    ("less crooked", "more crooked"), f"it {{ends}}. Before it was {calm:.0f}°."
+                ),
                 "less crooked" if eager < calm else "more crooked",
                 {"k_alpha": 3 * GENTLE_GAINS.k_alpha},
             ),

@@ -36,7 +36,7 @@ def standing_still(scene: str = "whole") -> Stage:
     short, long = ASKED
     shares = {"a tenth": 0.1, "a third": 0.1**0.5, "more than half": 0.8}
     left = strays(long) / strays(short)
-    ends = "One by one they stray {far}, averaged over {seconds} {left}."
+    ends = "They stray by {far}, their means over {seconds} by {left}."
     scenes = {
         "whole": Scene(
             "A receiver stands still for {lasts}. Why do its fixes move? " + ends,
@@ -50,7 +50,7 @@ def standing_still(scene: str = "whole") -> Stage:
             still=True,
             to={"seconds": short},
             ask=Question(
-                "One by one they stray {far}. Averaged over half a minute, by",
+                "They stray by up to {far}. And their means over half a minute, by",
                 dict.fromkeys(shares, "by {left}. Its errors last, so fixes in a row err alike."),
                 min(shares, key=lambda answer: abs(shares[answer] - left)),
                 {"seconds": long},

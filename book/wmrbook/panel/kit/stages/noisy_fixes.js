@@ -26,7 +26,7 @@ export default stage('noisy_fixes', {
     return { days: runs.length,
       ends: ends.length === 0 ? 'never stops within half a minute'
         : `stops ${ends.length === runs.length ? '' : `${ends.length} times, `}up to ${
-          inSize(worst(([x, y]) => Math.hypot(x - goal[0], y - goal[1])))} away, ${
+          inSize(worst(([x, y]) => Math.hypot(x - goal[0], y - goal[1])))} and ${
           inDegrees(worst((end) => Math.abs(wrap(end[2] - goal[2]))), 0)} off` };
   },
   draw(pane, values, { runs, fixes }, { k, done, size }) {

@@ -13,7 +13,7 @@ export default stage('race_of_laws', {
   say({ goal, law }, runs, { data: { names, dt } }) {
     const inSay = ({ poses, twists, arrived }) => (arrived
       ? `stops after ${written(dt * (poses.length - 1), 's')}, ${
-        inDegrees(Math.abs(wrap(poses.at(-1)[2] - goal[2])), 0)} off, and turned at up to ${
+        inDegrees(Math.abs(wrap(poses.at(-1)[2] - goal[2])), 0)} off, and turns up to ${
         written(DEGREES * Math.max(...twists.map(([, omega]) => Math.abs(omega))), '°/s', 2)}`
       : 'is on its way after a minute');
     return { other: names[law], ours: inSay(runs.ours), theirs: inSay(runs.theirs) };
