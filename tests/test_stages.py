@@ -53,8 +53,10 @@ def test_a_handle_goes_where_it_may_and_refuses_the_rest_by_name(name):
 
 FLIPS = {  # what a stage's module takes from wmrlib, and the same with a flipped sign
     "first_drive simulate": lambda f: lambda a, b, k, **o: f(a, b, _turned_twice(k), **o),
+    "gps_points local_position": lambda f: lambda a, b: (10 * f(a, b)[0], 10 * f(a, b)[1]),
     "two_wheels advance": lambda f: lambda *to: f(*to)._replace(y=-f(*to).x),
     "three_numbers simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(h=2.0), **o),
+    "moving_goal track": lambda f: lambda g, a, k, **o: f(g, a, k._replace(k_rho=1 / k.h), **o),
     "late_looks simulate": lambda f: lambda *a, dt, **o: f(*a, dt=0.002 / dt, **o),
     "noisy_fixes sweep": lambda f: lambda a, b, k, **o: f(a, b, _turned_thrice(k), **o),
     "as_printed simulate": lambda f: lambda *a, law, **o: f(*a, law=OTHER[law], **o),

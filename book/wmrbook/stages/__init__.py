@@ -15,8 +15,10 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "parts": sorted(PARTS),
         "first_drive": ["first_drive"],
+        "gps_points": ["gps_points"],
         "two_wheels": ["two_wheels"],
         "three_numbers": ["three_numbers"],
+        "moving_goal": ["moving_goal"],
         "late_looks": ["late_looks"],
         "noisy_fixes": ["noisy_fixes"],
         "as_printed": ["as_printed"],

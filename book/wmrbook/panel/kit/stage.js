@@ -93,21 +93,24 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
   // Sentences and questions lie on one another, so that the box is as high as the longest.
   function putWordsOf({ name: of, says, ask }) {
     const results = [];
-    const put = (text, kind) => {
-      const it = made(say, 'p', { className: 'stage-words' });
+    const putText = (it, text) => {
       for (const piece of text.split(/(\{[a-z_]+\}|\*[a-z_]+\*)/)) {
         if (piece[0] === '{')
           results.push([piece.slice(1, -1), made(it, 'b', { className: 'live-result' })]);
         else if (piece[0] === '*') putSymbol(it, piece.slice(1, -1));
         else it.append(piece);
       }
+    };
+    const put = (text, kind) => {
+      const it = made(say, 'p', { className: 'stage-words' });
+      putText(it, text);
       it.dataset.kind = kind;
       return it;
     };
     const asked = ask && put(`${ask.question} `, 'ask');
     const answers = (ask ? ask.answers : []).map(([answer, verdict], k) => {
-      const chip = made(asked, 'button',
-          { type: 'button', className: 'stage-chip', textContent: answer });
+      const chip = made(asked, 'button', { type: 'button', className: 'stage-chip' });
+      putText(chip, answer);
       chip.addEventListener('click', () => {
         ghost = found.tracks[0];
         byHand({ answer: k, ...ask.then });

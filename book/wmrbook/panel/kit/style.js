@@ -64,6 +64,13 @@ export function written(value, unit = '', digits = 3) {
   return text.replace(/^-(?=[0.]*$)/, '').replace('-', '−') + gap + unit;
 }
 
+// A length in the unit that suits it.
+export const lengthText = (metres, digits = 3) => {
+  const [size, unit] = metres >= 1e3 ? [1e-3, 'km'] : metres >= 0.999 ? [1, 'm'] : metres >= 0.00999
+      ? [100, 'cm'] : metres >= 0.0000999 ? [1e3, 'mm'] : [1e6, 'µm'];
+  return written(metres * size, unit, digits);
+};
+
 // As many digits as it was typed with, or as a slider's step has.
 export const inWords = (value) =>
     (Number.isFinite(value) ? String(Number(value.toPrecision(6))).replace('-', '−')

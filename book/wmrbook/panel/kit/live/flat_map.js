@@ -2,14 +2,9 @@
 // north-east, how far from there it lies on the sphere, and which way north is there.
 
 import {
-  DEGREES, disc, inReach, inside, live, ring, roundBelow, within, written,
+  DEGREES, disc, inReach, inside, lengthText, live, ring, roundBelow, within, written,
 } from '../drawing.js';
 
-const lengthText = (metres, digits = 3) => {
-  const [size, unit] = metres >= 1e3 ? [1e-3, 'km'] : metres >= 0.999 ? [1, 'm'] : metres >= 0.00999
-      ? [100, 'cm'] : metres >= 0.0000999 ? [1e3, 'mm'] : [1e6, 'µm'];
-  return written(metres * size, unit, digits);
-};
 const power = (value) =>
     (Number.isInteger(value)
     ? `10${[...String(value)].map((each) => '⁻⁰¹²³⁴⁵⁶'['-0123456'.indexOf(each)]).join('')}` : '');

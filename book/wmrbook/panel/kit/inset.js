@@ -1,0 +1,29 @@
+// A small picture in an upper corner of another one, in units of its own.
+
+import { inside } from './surface.js';
+
+/**
+ * Draws the frame; `at` gives the place in the large picture for one in the small one, and
+ * `within(draw)` keeps a drawing inside.
+ * @param {Pane} pane @param {'left' | 'right'} side @param {{ width: number, height: number }} size
+ * @param {number[]} xs @param {number[]} ys
+ */
+export function insetOf(pane, side, { width, height }, [x0, x1], [y0, y1]) {
+  const { ctx, box, view } = pane, gap = 10;
+  const left = box.left + (side === 'left' ? gap : box.width - width - gap), top = box.top + gap;
+  ctx.fillStyle = pane.ink('paper');
+  ctx.fillRect(left, top, width, height);
+  ctx.strokeStyle = pane.ink('soft');
+  ctx.lineWidth = 1.5;
+  ctx.strokeRect(left, top, width, height);
+  return {
+    /** @type {(place: Point) => Point} */
+    at: ([x, y]) => view.toWorld(left + (x - x0) / (x1 - x0) * width,
+        top + (y1 - y) / (y1 - y0) * height),
+    within: (draw) => inside(ctx, { left, top, width, height }, draw),
+  };
+}
+
+/** As large as there is room. @param {Pane} pane @param {number} most px */
+export const insetSize = ({ box }, most) =>
+    ({ width: Math.min(0.34 * box.width, most), height: Math.min(0.42 * box.height, most) });

@@ -1,0 +1,65 @@
+// Chapter 1: the goal as its digits have it, on the lattice of all places that they can name.
+
+import {
+  DEGREES, driven, insetOf, insetSize, lengthText, roundBelow, stage, within, wrap, written,
+} from '../drawing.js';
+
+const MARGIN = 5; // m
+const LATTICE = [-4, -3, -2, -1, 0, 1, 2, 3, 4]; // steps from the middle
+
+// Latitude and longitude of a place on the lawn, and back.
+/** @type {(place: Point, data: any) => Point} */
+const degreesOf = ([x, y], { origin, metres }) =>
+    [origin[0] + y / metres[0], origin[1] + x / metres[1]];
+/** @type {(degrees: Point, data: any) => Point} */
+const placeOf = ([lat, lon], { origin, metres }) =>
+    [(lon - origin[1]) * metres[1], (lat - origin[0]) * metres[0]];
+
+export default stage('gps_points', {
+  find({ start, goal, digits }, { data }) {
+    const count = Math.round(digits), shown = (place) =>
+      degreesOf(place, data).map((value) => value.toFixed(count));
+    const told = placeOf(shown(goal).map(Number), data), { gains } = data;
+    const run = driven({ start, goal: [...told, goal[2]], gains, arrivalRadius: 0.002 });
+    return { count, told, labels: [shown(start), shown(goal)],
+      steps: data.metres.map((metres) => metres * 10 ** -count),
+      miss: Math.hypot(told[0] - goal[0], told[1] - goal[1]), tracks: [{ ...run, role: 'path' }] };
+  },
+  look({ start, goal }, { told }) {
+    const [xs, ys] = [0, 1].map((i) => [start[i], goal[i], told[i]]);
+    return [Math.min(...xs) - MARGIN, Math.min(...ys) - MARGIN, Math.max(...xs) + MARGIN,
+      Math.max(...ys) + MARGIN];
+  },
+  say: ({ start, goal }, { count, miss }) => ({
+    digits: count, miss: lengthText(miss),
+    distance: written(Math.hypot(goal[0] - start[0], goal[1] - start[1]), 'm'),
+    bearing: `${((450 - wrap(Math.atan2(goal[1] - start[1], goal[0] - start[0])) * DEGREES) % 360)
+        .toFixed(1)}°`,
+  }),
+  draw(pane, { start, goal }, { told, labels, steps: [north, east] }, now) {
+    const side = goal[0] < start[0] ? 'right' : 'left', size = insetSize(pane, 190);
+    const beside = 24 + 10 * now.size + within((told[0] - goal[0]) / pane.pixel, 0, 120); // px
+    for (const row of [0, 1]) {
+      const [first, last] = labels.map((label) => `${label[row]}° ${row ? 'E' : 'N'}`),
+          dy = 8 - 18 * row;
+      pane.text(first, start[0], start[1], { role: 'start', dx: -24, dy, align: 'right' });
+      pane.text(last, goal[0], goal[1], { role: 'goal', dx: beside, dy });
+    }
+    pane.cross(told[0], told[1], 'rising', 5);
+    // the goal and the places round it that these digits can name
+    const wide = roundBelow(4.6 * north), tall = wide * size.height / size.width,
+        inset = insetOf(pane, side, size, [goal[0] - wide / 2, goal[0] + wide / 2],
+          [goal[1] - tall / 2, goal[1] + tall / 2]);
+    const { at } = inset;
+    inset.within(() => {
+      for (const i of LATTICE)
+        for (const j of LATTICE)
+          pane.dot(...at([told[0] + i * east, told[1] + j * north]), 'soft', { size: 2.5 });
+      pane.line([at(goal), at(told)], 'rising', { width: 3 });
+      pane.dot(...at(goal), 'goal', { hollow: true });
+      pane.dot(...at(told), 'path', { size: 5 });
+    });
+    pane.text(`${lengthText(wide, 1)} wide`, ...at([goal[0], goal[1] - tall / 2]),
+        { role: 'soft', dy: 12, align: 'center', size: 13, fixed: true });
+  },
+});

@@ -1,0 +1,66 @@
+"""Chapter 1: two GPS points on a lawn, and how many digits a centimetre needs."""
+
+from __future__ import annotations
+
+import math
+
+from wmrbook.live.parts import Knob
+from wmrbook.stages.parts import Question, Scene, Stage, paper_drive
+from wmrlib import GENTLE_GAINS, GeoPoint, Pose, local_position, paper
+
+FEWEST, MOST, FIRST = 3, 8, 4  # digits after the point
+CENTIMETRE = 0.01  # m
+GOAL = Pose(9.7, 57.2, paper.GOAL_HEADING)  # the paper's has six digits, and no more
+TOLD = "{digits} digits after the point lead the robot to a place {miss} from its goal"
+
+
+def gps_points(scene: str = "whole") -> Stage:
+    """Return the paper's two points with as many digits as a reader leaves them, as a scene."""
+    origin = paper.GPS_POINT_1
+    enough = next(n for n in range(FEWEST, MOST + 1) if _worst(origin, n) < CENTIMETRE)
+    verdict = (
+        f"wherever the goal is, {enough} digits miss it by less than {_millimetres(enough)} mm, "
+        f"and {enough - 1} may miss it by {_millimetres(enough - 1)} mm. Here they miss it by "
+        "{miss}."
+    )
+    scenes = {
+        "whole": Scene(
+            "Two GPS points, {distance} apart: the goal lies at {bearing} from north, clockwise. "
+            f"{TOLD}."
+        ),
+        "near": Scene(f"The last metre. {TOLD}.", look="near", to={"digits": 5}),
+        "ask": Scene(
+            f"{TOLD}.",
+            look="near",
+            still=True,
+            to={"digits": 5},
+            ask=Question(
+                "How many digits does a centimetre need?",
+                {f"{n}": verdict for n in range(MOST - 3, MOST + 1)},
+                f"{enough}",
+                {"digits": enough},
+            ),
+        ),
+    }
+    digits = Knob(FIRST, FEWEST, MOST, 1, "digits of the coordinates", label="digits")
+    east, _ = local_position(origin, GeoPoint(lat=origin.lat, lon=origin.lon + 0.001))
+    _, north = local_position(origin, GeoPoint(lat=origin.lat + 0.001, lon=origin.lon))
+    data = {
+        "origin": [origin.lat, origin.lon],
+        "metres": [1000 * north, 1000 * east],  # a degree of latitude, of longitude
+        "gains": GENTLE_GAINS._asdict(),
+    }
+    hands = ("goal",)
+    places = paper_drive() | {"goal": GOAL}
+    return Stage("gps_points", {"digits": digits}, scenes, scene, **places, hands=hands, data=data)
+
+
+def _worst(point: GeoPoint, digits: int) -> float:
+    """Return how far rounding to so many digits can move a point, m."""
+    half = 0.5 * 10.0**-digits
+    away = GeoPoint(lat=point.lat + half, lon=point.lon + half)
+    return math.hypot(*local_position(point, away))
+
+
+def _millimetres(digits: int) -> int:
+    return math.ceil(1000 * _worst(paper.GPS_POINT_1, digits))
