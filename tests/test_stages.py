@@ -97,5 +97,5 @@ def test_the_right_answer_follows_from_the_library(monkeypatch, flipped):
 def test_where_nothing_runs_a_stage_says_where_its_handles_stand():
     for name in NAMES:
         stage = getattr(stages, name)()
-        assert repr(stage).startswith("A stage: run this cell")
+        assert repr(stage).startswith("A stage, which begins with")
         assert all(knob["says"] in repr(stage) for knob in stage.setup["knobs"])
