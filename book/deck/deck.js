@@ -95,7 +95,7 @@
       if (!slide.querySelector('.live-play[aria-label^="Stop"]')) press(slide, 'Play');
       if (deck.getConfig().autoSlide)
         waiting = setTimeout(() => {
-          slide.querySelector('.live[data-open="false"] .wmr-bar button:nth-child(2)')?.click();
+          slide.querySelector('.live[data-open="false"] .live-skip')?.click();
         }, AUTO / 3);
     }, 400);
   }

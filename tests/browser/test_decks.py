@@ -63,11 +63,9 @@ def go_to_panel(page):
 
 
 ANSWER = """() => {
-    for (const gate of document.querySelectorAll('.live[data-open="false"] .live-gate')) {
-        const options = [...gate.querySelectorAll('input[type="radio"]')];
-        options.at(-1)?.click();
-        if (options.length) gate.requestSubmit();
-        else gate.querySelector('button:nth-child(2)').click();
+    for (const chips of document.querySelectorAll('.live[data-open="false"] .live-answers')) {
+        const options = [...chips.querySelectorAll('.live-chip:not(:disabled)')];
+        (options.at(-1) || chips.querySelector('.live-skip')).click();
     }
 }"""
 

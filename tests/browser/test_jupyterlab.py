@@ -114,7 +114,7 @@ def test_the_first_screen_has_a_robot_that_drives_before_anything_is_run(lab, br
     settings = json.loads(page.locator("#jupyter-config-data").text_content())
     assert settings["buildCheck"] is False  # where there is no Node.js it would warn
     assert panel.locator(".live-result").last.inner_text() == "2°"  # this one parks
-    assert page.locator(".live-gate").count() == 1  # no answer before it is asked
+    assert page.locator(".live-question").count() == 1  # no answer before it is asked
 
 
 def test_the_first_chapter_lives_before_it_is_run_and_after_it_is_saved(lab, browser_page):
@@ -126,9 +126,7 @@ def test_the_first_chapter_lives_before_it_is_run_and_after_it_is_saved(lab, bro
     assert_slider_matters(page, values[0])
     assert solutions_in_sight(page) == []
     count = page.evaluate(f"() => {WIDGETS}.length")
-    asks = page.locator(".live:has([type=radio])").first
-    asks.locator("[type=radio]").first.check()
-    asks.get_by_role("button", name="Commit").click()
+    page.locator(".live-answers .live-chip").first.click()
     for place in ("[aria-label^=controls] .wmr-slider", ".wmr:not(.live) button"):
         page.locator(place).locator("visible=true").first.press("b")  # in a cell it adds one
     assert page.evaluate(f"() => {WIDGETS}.length") == count

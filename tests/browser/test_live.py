@@ -38,24 +38,28 @@ SLOWLY = """() => {
 
 
 def opened(page, name: str):
-    """Show a figure and commit to a prediction, if it asks for one."""
+    """Show a figure and answer what it asks, if it asks."""
     thing = getattr(live, name)()
     panel = mounted(page, thing, width=900)
     if ask := thing.setup["ask"]:
-        commit(panel, ask)
+        answer(panel, ask)
     return panel
 
 
-def commit(panel, ask) -> None:
+def answer(panel, ask, option: int | None = None) -> None:
+    """By keyboard: the right option, or another one, or an arrow or a sketch of one's own."""
     page = panel.page
     if ask["kind"] == "choose":
-        page.get_by_role("radio").nth(ask["key"]).check()
-    elif ask["kind"] == "turn":
-        page.get_by_role("slider").first.press("ArrowRight")
+        option = ask["key"] if option is None else option
+        page.locator(".live-answers .live-chip").nth(option).press("Enter")
+        panel.settled()
+        return
+    if ask["kind"] == "turn":
+        page.get_by_role("slider", name="the angle of the arrow").press("ArrowRight")
     else:
         for key in ("ArrowRight", "ArrowUp", "ArrowUp", "Backspace", "ArrowLeft"):
             page.locator("canvas").first.press(key)
-    panel.press("Commit")
+    panel.press("That's it")
 
 
 def ends(knob: dict) -> list:
@@ -73,12 +77,13 @@ def test_on_a_phone_every_knob_changes_the_picture_once_a_prediction_is_made(emp
             panel.set(**{knob["name"]: ends(knob)[0]})
         assert page.evaluate(PICTURE) == given  # nothing is shown before
         panel.set(**thing.state)
-        answers = page.locator(".live-sentence, .live-rows, .wmr-handle, .live-key")
+        answers = page.locator(".live-sentence, .live-rows, .wmr-handle, .live-verdict")
         assert answers.locator("visible=true").count() == 0
-        assert as_shown(ask["why"]) not in page.evaluate(TEXT)
-        assert page.get_by_role("button", name="Commit").is_disabled()
-        commit(panel, ask)
-        assert as_shown(ask["why"]) in page.evaluate(TEXT)
+        if ask["kind"] != "choose":
+            assert page.get_by_role("button", name="That's it").is_disabled()
+        answer(panel, ask)
+        verdict = page.locator(".live-verdict:visible").inner_text()
+        assert as_shown(ask["why"]) in verdict
         assert page.evaluate(PICTURE) != given
     home = panel.state()
     for knob in knobs:
@@ -124,35 +129,40 @@ def test_a_wrong_answer_is_told_what_is_wrong_and_the_knobs_go_where_it_asks():
 def test_an_answer_is_judged_and_can_be_tried_again(emptied_page):
     thing, page = live.stopping(), emptied_page
     panel, ask = mounted(page, thing), thing.setup["ask"]
-    verdict = page.locator(".live-verdict")
+    verdict, right = page.locator(".live-verdict:visible"), ask["options"][ask["key"]]
     for k, wrong in enumerate(ask["wrong"]):
-        page.get_by_role("radio").nth(k).check()
-        panel.press("Commit")
+        answer(panel, ask, k)
         assert panel.get("stop") == ask["asked"][-1]["stop"]
-        judged = "As you said." if k == ask["key"] else f"Not so. {wrong}"
-        assert verdict.inner_text() == as_shown(f"{judged} {ask['why']}")
+        is_right = k == ask["key"]
+        judged = f"Yes, {right}. {ask['why']}" if is_right else f"No: {right}. {wrong}"
+        assert verdict.inner_text() == as_shown(judged)
+        assert page.evaluate("document.activeElement.className") == "live-verdict"
         panel.press("Try again")
         assert panel.get("stop") == live.stopping()["stop"]
         assert page.locator(".live-sentence").is_hidden()
     panel.press("Just show me")
-    assert verdict.inner_text() == as_shown(ask["why"])
+    assert verdict.inner_text() == as_shown(f"{right.capitalize()}. {ask['why']}")
 
 
 def test_a_remembered_answer_opens_a_figure(browser_page):
     browser_page.add_init_script("globalThis.wmrKit = () => {}")  # as where a page remembers
     ask = live.lag().setup["ask"]
     asked = ask["asked"][0]["k_rho"]
-    commit(mounted(browser_page, live.lag()), ask)
-    assert mounted(browser_page, live.lag()).get("k_rho") == asked
+    answer(mounted(browser_page, live.lag()), ask)
+    panel = mounted(browser_page, live.lag())
+    assert panel.get("k_rho") == asked
+    browser_page.get_by_label("more about predictions").click()
+    panel.press("Forget all my answers")
+    assert panel.get("k_rho") == mounted(browser_page, live.lag()).get("k_rho") < asked
 
 
 def test_a_sketch_is_drawn_by_hand_and_judged_by_its_distance_from_the_way(emptied_page):
     panel = mounted(emptied_page, live.half_turn(), width=900)
     canvas = emptied_page.locator("canvas").first
     panel.drag(canvas, 0.3 * canvas.bounding_box()["width"], 0, steps=3)
-    guess = panel.press("Commit").get("guess")
+    guess = panel.press("That's it").get("guess")
     assert len(guess) == 5
-    verdict = emptied_page.locator(".live-verdict").inner_text()
+    verdict = emptied_page.locator(".live-verdict:visible").inner_text()
     far = float(re.search(r"Your path is ([\d.]+) m from the robot's, on average", verdict)[1])
     run = panel.results()["run"]
     way = list(zip(run["x"], run["y"], strict=True))

@@ -300,7 +300,7 @@ def test_a_drive_plays_over_its_picture_and_waits_where_it_is_paused(opened):
     assert slider.get_attribute("aria-valuetext") != "0.0 s"
 
 
-CONTROLS = "Copy|Show all code|Hide the code|Larger|Play|Commit|Just show me|Try again|Run|Code"
+CONTROLS = "Copy|Show all code|Hide the code|Larger|Play|That's it|Just show me|Try again|Run|Code"
 
 
 def test_a_printed_chapter_has_no_control_no_imports_and_no_prediction_that_waits(

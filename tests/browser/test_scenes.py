@@ -86,7 +86,8 @@ def race(results):
 def test_what_each_idea_says_is_so(emptied_page, name):
     thing, steps = getattr(live, name)(), SCENES[name]
     panel = mounted(emptied_page, thing)
-    assert not emptied_page.locator(".live-steps:visible").count() or not thing.setup["ask"]
+    chips, line = (emptied_page.locator(it) for it in (".live-steps .live-chip", "[data-on=true]"))
+    assert not chips.locator("visible=true").count() or not thing.setup["ask"]
     panel.set(guess="skipped")
     knobs = [it for it in thing.setup["knobs"] if it["name"] != "time"]
     home = {it["name"]: it["value"] for it in knobs}
@@ -94,12 +95,12 @@ def test_what_each_idea_says_is_so(emptied_page, name):
     for k, step in enumerate(steps):
         away = {it["name"]: it["choices"][-1][0] if "choices" in it else it["high"] for it in knobs}
         panel.set(**away)  # what one did before does not count
-        button = emptied_page.locator(".live-steps button").nth(k)
+        button = chips.nth(k)
         button.click()
         panel.settled()
         assert button.get_attribute("aria-current") == "step"
         assert emptied_page.locator(".live-steps [aria-current]").count() == 1
-        assert emptied_page.locator(".live-steps span").inner_text() == as_shown(step.says)
+        assert line.first.inner_text() == as_shown(step.says)
         assert {it: panel.get(it) for it in home} == home | step.to
         assert panel.get("time") in (None, 1.0)
         assert not emptied_page.locator(".live-trouble:visible").count()

@@ -33,9 +33,9 @@ def polar_angles() -> Live:
         data=between(ROBOT, GOAL),
         ask=Ask(
             "turn",
-            f"The robot, the dot, has alpha = {alpha} deg. Which way does it look? Turn the arrow.",
-            "Alpha turns from the heading to the line of sight, positive to the left: where it is "
-            "negative, the goal is to the robot's right, wherever both are.",
+            f"The dot is a robot with alpha = {alpha} deg. Which way does it look? Turn the arrow.",
+            "Alpha turns from the heading to the line of sight: where it is negative, the goal is "
+            "to the robot's right.",
             key=heading,
             pane="plane",
             at=ROBOT[:2],
@@ -61,10 +61,10 @@ def half_turn() -> Live:
         data=between(BEHIND, ORIGIN, gains=paper.OUTDOOR_GAINS._asdict()),
         ask=Ask(
             "sketch",
-            f"The goal lies behind the robot, {OFF:.0f} deg to the right of straight behind. "
+            f"The goal is behind the robot, {OFF:.0f} deg to the right of straight behind. "
             "Sketch the way.",
             f"It sets off {sets_off}, for cos alpha is negative, and turns {turns} at the same "
-            "time. With the goal a hair to the other side it is the mirror image.",
+            "time.",
             pane="plane",
             at=BEHIND[:2],
         ),

@@ -32,22 +32,18 @@ def rising() -> Live:
             "asked": {"alpha": alpha, "theta": theta, "rho": away},
         },
         ask=choose(
-            "With L = 1 m², V rises under (24) as printed 0.35 m from the goal, which lies 45° to "
-            "the left, with theta = 0. Now let the distance count a thousand times as much in V: "
+            "Here V rises. Now let the distance count a thousand times as much in V, with "
             "L = 0.001 m². What does V do?",
-            "The distance's part of V' fades with the square of the distance, whatever its weight. "
-            "So with every L the angles decide, near enough to the goal.",
+            "The distance's part of V' fades with the square of the distance, so near enough the "
+            "angles decide, whatever L is.",
             answers={
-                "It rises here too, and so nothing is mended.": rises(away, heavy),
-                "It falls here, and everywhere nearer to the goal.": not rises(away, heavy)
-                and not rises(1e-6, heavy),
-                "It falls here, and rises nearer to the goal.": not rises(away, heavy)
-                and rises(1e-6, heavy),
+                "it rises all the same": rises(away, heavy),
+                "it falls, here and nearer": not rises(away, heavy) and not rises(1e-6, heavy),
+                "it falls here, but rises nearer": not rises(away, heavy) and rises(1e-6, heavy),
             },
             wrong=(
-                "Here the distance now outweighs the angles, and V falls.",
-                "The distance's part fades with the square of the distance, so nearer to the "
-                "goal the angles win again.",
+                "The distance now outweighs the angles here.",
+                "The distance's part fades with its square, so nearer to the goal the angles win.",
                 "",
             ),
             asked=({"L": 0.001},),

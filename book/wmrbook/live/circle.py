@@ -23,10 +23,10 @@ def lag() -> Live:
         for tried in (gains, gains._replace(k_rho=2 * gains.k_rho))
     )
     left = {
-        "It vanishes": twice < once / 10,
-        "It is halved": 0.4 < twice / once < 0.6,
-        "It stays: the gain only decides how soon the robot is there": 0.9 < twice / once < 1.1,
-        "It grows": twice > 1.1 * once,
+        "it vanishes": twice < once / 10,
+        "it is halved": 0.4 < twice / once < 0.6,
+        "it stays": 0.9 < twice / once < 1.1,
+        "it grows": twice > 1.1 * once,
     }
     return Live(
         "lag",
@@ -43,17 +43,16 @@ def lag() -> Live:
             "speed": paper.CIRCLE_SPEED,
         },
         ask=choose(
-            f"Once round the circle the robot is {once:.2f} m behind its goal, and stays there. "
-            "What becomes of this distance if k_rho is doubled?",
-            "At the goal the law commands no speed, so the robot keeps the distance at which it "
-            "commands the goal's. That goes as 1/k_rho, and so no gain removes it. (With samples "
-            "too far apart for the gain, more is left.)",
+            f"The robot stays {once:.2f} m behind its goal. What becomes of this distance if k_rho "
+            "is doubled?",
+            "On the goal the law commands no speed, so the robot keeps the distance that commands "
+            "the goal's. It goes as 1/k_rho.",
             answers=left,
             wrong=(
-                "On the goal the law commands no speed, so a robot that keeps up stays behind.",
+                "On the goal the law commands no speed, so a robot that keeps up must stay behind.",
                 "",
-                "The speed that is commanded hangs on k_rho and the distance: with more of one,"
-                " less of the other is enough.",
+                "The speed hangs on k_rho times the distance: with twice the one, half the other "
+                "is enough.",
                 "With a larger k_rho the goal's speed is commanded from nearer.",
             ),
             asked=({"k_rho": 3.8},),
@@ -78,21 +77,19 @@ def lqr() -> Live:
         },
         data={"A": A.tolist(), "B": B.tolist(), "start": list(paper.CIRCLE_START)},
         ask=choose(
-            "At q = 1 errors and commands weigh the same. Now all three errors are weighted "
-            f"{heavier:.0f} times as heavily. How much faster does the slowest part of the error "
-            "fade?",
-            f"On this circle the slowest part fades fastest at q = {fastest:.0f}. Beyond, the "
-            "limit is what is aside: the wheels push ahead, never sideways, and only the goal's "
-            "speed carries it across.",
+            f"Now all errors are weighted {heavier:.0f} times as heavily, with q = {heavier:.0f}. "
+            "How much faster does the slowest part fade?",
+            f"It fades fastest at q = {fastest:.0f}. Beyond, the error to the side is the limit: "
+            "the wheels never push sideways.",
             answers={
                 f"{heavier:.0f} times faster": ratio > heavier / 2,
                 f"{math.sqrt(heavier):.0f} times faster": heavier / 20 < ratio < heavier / 5,
-                "No faster": ratio < 1.1,
+                "no faster": ratio < 1.1,
             },
             wrong=(
                 "A weight says what is worth most, not what the wheels can do: they never push "
                 "sideways.",
-                "So it would be if the wheels could push in each direction.",
+                "That would be so if the wheels could push in each direction.",
                 "",
             ),
             asked=({"q": 100.0},),

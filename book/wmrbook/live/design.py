@@ -28,23 +28,22 @@ def poles() -> Live:
         },
         data={"k_rho": GAINS.k_rho, "v_max": GAINS.v_max, "start": list(START), "goal": list(GOAL)},
         ask=choose(
-            "The weight h of the final heading is made four times as large, and the other gains "
-            "stay. What becomes of the damping ratio?",
-            "It is k_alpha over twice the natural frequency, which grows with the root of h. A "
-            "damper that stops a slow swing is a weak one for a fast swing.",
+            "The weight h of the final heading is made four times as large. What becomes of the "
+            "damping ratio?",
+            "It is k_alpha over twice the natural frequency, which grows with the root of h.",
             answers={
-                "It is halved": 0.4 < ratio < 0.6,
-                "It stays: only k_alpha is a damper": 0.9 < ratio < 1.1,
-                "It is doubled": 1.9 < ratio < 2.1,
-                "It is a quarter of what it was": 0.2 < ratio < 0.3,
+                "it is halved": 0.4 < ratio < 0.6,
+                "it stays": 0.9 < ratio < 1.1,
+                "it is doubled": 1.9 < ratio < 2.1,
+                "it is quartered": 0.2 < ratio < 0.3,
             },
             wrong=(
                 "",
-                "The ratio compares k_alpha with the natural frequency, and h makes that larger.",
-                "h is the spring, not the damper. A stiffer spring makes the same damper a "
-                "weaker one.",
-                "The natural frequency goes with the root of h: four times h is twice the "
-                "frequency.",
+                "k_alpha stays, but it is compared with the natural frequency, which h makes "
+                "larger.",
+                "h is the spring, not the damper: a stiffer spring makes the same damper a weaker "
+                "one.",
+                "Four times h is twice the natural frequency, not four times.",
             ),
             asked=({"h": 2.0},),
         ),
@@ -77,20 +76,17 @@ def window() -> Live:
         data={"named": points, "start": [-1.0, -4.5, 0.6]},
         ask=choose(
             "v_max and k_alpha are doubled; k_rho and h stay. What becomes of the path?",
-            "In lengths of 1/k_rho and times of 1/(v_max k_rho) the loop has two numbers left, "
-            "k_alpha/(v_max k_rho) and h. Neither changed, so the path stays; the clock runs twice "
-            "as fast.",
+            "The path has only two numbers, kappa = k_alpha/(v_max k_rho) and h, and neither has "
+            "changed.",
             answers={
-                "A wider path: a faster robot turns later": longer > 1.01,
-                "A tighter path: it steers harder": longer < 0.99,
-                "The same path, in half the time": 0.99 < longer < 1.01 and 0.45 < time < 0.55,
-                "The same path, in the same time": 0.99 < longer < 1.01 and 0.95 < time < 1.05,
+                "it gets wider": longer > 1.01,
+                "it gets tighter": longer < 0.99,
+                "the same, in half the time": 0.99 < longer < 1.01 and 0.45 < time < 0.55,
+                "the same, in the same time": 0.99 < longer < 1.01 and 0.95 < time < 1.05,
             },
             wrong=(
-                "So it would be if v_max alone were doubled. With k_alpha doubled too, kappa "
-                "stays.",
-                "So it would be if k_alpha alone were doubled. With v_max doubled too, kappa "
-                "stays.",
+                "It would be wider with v_max alone; with k_alpha doubled too, kappa stays.",
+                "It would be tighter with k_alpha alone; with v_max doubled too, kappa stays.",
                 "",
                 "The path stays, but the robot is twice as fast on it.",
             ),

@@ -34,7 +34,7 @@ def bearing() -> Live:
             f"Point 2 lies at a bearing of {clockwise:.0f} deg from point 1. Where is it? "
             "Turn the arrow.",
             "A bearing starts at north and turns clockwise; a heading starts at east and turns "
-            "the other way. Only north-east and south-west are the same in both.",
+            "the other way.",
             key=math.atan2(north, east),
             pane="map",
             at=(0.0, 0.0),
@@ -48,10 +48,10 @@ def flat_map() -> Live:
     known, asked = (_flat_error(here, distance) for distance in DISTANCES)
     times = DISTANCES[1] / DISTANCES[0]
     distances = {
-        "as much as before": known,
-        f"{times:.0f} times as much": known * times,
-        f"{times**2:,.0f} times as much": known * times**2,
-        f"{times**3:,.0f} times as much": known * times**3,
+        "as much": known,
+        f"{times:.0f} times": known * times,
+        f"{times**2:,.0f} times": known * times**2,
+        f"{times**3:,.0f} times": known * times**3,
     }
     return Live(
         "flat_map",
@@ -66,17 +66,17 @@ def flat_map() -> Live:
             "asked": {"km": DISTANCES[0] / 1000, "lat": here.lat},
         },
         ask=choose(
-            f"Over {DISTANCES[0]:.0f} m the flat map is {1000 * known:.1f} mm off. And over "
+            f"Over {DISTANCES[0]:.0f} m the flat map is {1000 * known:.1f} mm off. How much over "
             f"{DISTANCES[1] / 1000:.0f} km, {times:.0f} times as far?",
-            f"It is {asked:.1f} m: the meridians close in along the way, and what that costs grows "
-            "with the square of the distance, at any latitude but near the equator's.",
+            f"It is {asked:.1f} m off: the meridians close in along the way, and that costs the "
+            "square of the distance.",
             answers=nearest(asked, distances),
             wrong=(
                 "The meridians close in along the way: the farther, the more.",
-                "Twice the way closes the meridians in twice as much, and that over twice the way.",
+                "Twice the way closes the meridians in twice as much, and over twice the way: that "
+                "is a square.",
                 "",
-                "A million times would be the cube of the distance, as it is only near the "
-                "equator.",
+                "That would be the cube of the distance, and so it is only near the equator.",
             ),
             asked=({"km": 10.0},),
         ),

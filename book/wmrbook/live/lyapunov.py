@@ -42,9 +42,9 @@ def bowl() -> Live:
     aside = np.abs(np.angle(np.exp(1j * (moves - steepest[:-1]))))[early].max()
     rises = np.diff(heights).max() > 1e-9
     ways = {
-        "Down all the way, by the steepest way": not rises and aside < math.radians(20.0),
-        "Down all the way, but not by the steepest way": not rises and aside > math.radians(20.0),
-        "Up at times, and down in the end": rises,
+        "by the steepest way": not rises and aside < math.radians(20.0),
+        "down all the way, but aslant": not rises and aside > math.radians(20.0),
+        "up at times": rises,
     }
     return Live(
         "bowl",
@@ -69,13 +69,13 @@ def bowl() -> Live:
         },
         ask=choose(
             "This chapter designs a law for this bowl. How will the ball get to the bottom?",
-            "Along a motion V must not rise; nothing is asked of the direction. A robot can't turn "
-            "its two angles as it likes, so its way down is its own. The steepest is dashed.",
+            "V must not rise, but nothing is asked of its direction. The dashed way is the "
+            "steepest.",
             answers=ways,
             wrong=(
-                "Only driving turns theta.",
+                "A robot can't turn its two angles as it likes: only driving turns theta.",
                 "",
-                "Such a law would prove nothing.",
+                "Such a law would prove nothing: V must never rise.",
             ),
         ),
     )
@@ -108,21 +108,22 @@ def two_bars() -> Live:
         },
         data={"rho": NEAR, "gains": OUTDOOR_GAINS._asdict(), "asked": ASKED},
         ask=choose(
-            "A robot with this law faces its goal squarely, 0.5 m ahead, but should be turned "
-            "by 60° there: alpha is 0 and theta is 60°. Which part of V is falling?",
+            "The robot looks straight at its goal, but should be turned by 60°: alpha = 0, "
+            "theta = 60°. Which part of V falls?",
             "The angles' part falls by what alpha is, whatever theta is: it can't see that the "
-            "heading is wrong. That V never rises is not enough; it must not stay level either.",
+            "heading is wrong.",
             answers={
-                "Both parts": distance and angles,
-                "Only that of the distance": distance and not angles,
-                "Only that of the angles": angles and not distance,
-                "Neither": not distance and not angles,
+                "both": distance and angles,
+                "only the distance's": distance and not angles,
+                "only the angles'": angles and not distance,
+                "neither": not distance and not angles,
             },
             wrong=(
-                "Here alpha is 0.",
+                "Alpha is 0, so the angles' part stays level: it can't see that the heading is "
+                "wrong.",
                 "",
-                "It drives towards its goal, so the distance falls; and alpha is 0.",
-                "It drives towards its goal, so the distance's part falls.",
+                "The robot drives towards its goal, so the distance's part falls; and alpha is 0.",
+                "The robot drives towards its goal, so the distance's part falls.",
             ),
         ),
     )
@@ -150,20 +151,19 @@ def seam() -> Live:
             "gains": OUTDOOR_GAINS._asdict(),
         },
         ask=choose(
-            "40 robots, 0.5 m from the goal, look at it, but should look the other way when they "
-            "get there: theta is 180°. Each reads the line of sight with 2° of noise, 100 times a "
-            "second. How do they park?",
-            "Where theta jumps, each reading sends a robot round the other way: its turns "
-            "cancel, and it drives straight on. Only those that drift off the seam in time turn.",
+            "40 robots face their goal, but should look the other way: theta is 180°, read with 2° "
+            "of noise. How do they park?",
+            "Where theta jumps, each reading sends a robot round the other way, and its turns "
+            "cancel.",
             answers={
-                "All properly: the first reading decides, left or right": share < 0.1,
-                "Over half of them more than 90° off: their turns cancel": 0.5 < share < 0.9,
-                "None properly: no law turns a robot that looks the wrong way": share >= 0.9,
+                "all properly": share < 0.1,
+                "over half of them wrong": 0.5 < share < 0.9,
+                "all of them wrong": share >= 0.9,
             },
             wrong=(
                 "The first reading does not decide: the next may say the opposite.",
                 "",
-                "A robot that looks the wrong way does turn, once noise has pushed it aside.",
+                "Once noise has pushed a robot aside, it does turn.",
             ),
         ),
     )

@@ -62,22 +62,21 @@ def late() -> Live:
         },
         data=between(start, goal, gains=GENTLE_GAINS._asdict(), dt=DT, radius=RADIUS, lost=LOST),
         ask=choose(
-            "Two robots drive at up to 4 m/s. One sees its position 0.6 s late, the other its "
-            "heading. Which of them come to the goal, 58 m away, within a minute?",
-            "The heading turns as fast as the law steers, so an old one makes it steer too far, "
-            "and back: it comes in on a long spiral, or never. Far away the line of sight hardly "
-            "turns, so an old position does harm only near the goal.",
+            "One robot sees its position 0.6 s late, the other its heading. Which of them arrives "
+            "within a minute?",
+            "An old heading makes the law steer too far, and back; an old position does harm only "
+            "near the goal.",
             answers={
-                "Both": position and heading,
-                "Only the one whose position is late": position and not heading,
-                "Only the one whose heading is late": heading and not position,
-                "Neither": not position and not heading,
+                "both": position and heading,
+                "the one with the late position": position and not heading,
+                "the one with the late heading": heading and not position,
+                "neither": not position and not heading,
             },
             wrong=(
-                "An old heading lets it steer too far, and back, for longer than a minute.",
+                "An old heading lets the robot steer too far, and back, for longer than a minute.",
                 "",
-                "It is the other way round: far away the line of sight hardly turns, so an old "
-                "position does little harm there.",
+                "Far away the line of sight hardly turns, so an old position does little harm "
+                "there.",
                 "An old position does harm only near the goal, where the line of sight turns.",
             ),
         ),

@@ -25,15 +25,15 @@ NAMES = {
     "graceful": "Graceful",
 }
 RADII = (0.1, 0.05)  # m, where the prediction compares
-SHARES = {"As much": 1.0, "Half of it": 0.5, "A quarter of it": 0.25}
+SHARES = {"as much": 1.0, "half of it": 0.5, "a quarter of it": 0.25}
 
 
 def race() -> Live:
     """Five laws from a start that the reader drags, with the same wheels."""
     asked = [law for law in NAMES if law != "printed"]
     speeds = [control_law(2.0, math.pi, math.pi / 2, TUNED[law], law=law)[0] for law in asked]
-    names = [NAMES[law][0].upper() + NAMES[law][1:] for law in asked]
-    backs_up = "Its speed contains cos alpha, which is negative while the goal is behind."
+    names = [NAMES[law] for law in asked]
+    backs_up = "The others' speeds contain cos alpha, which is negative while the goal is behind."
     return Live(
         "race",
         "From {x}, {y}, facing {heading}, {law} {ends}, {left} off; it has driven {back} "
@@ -50,8 +50,7 @@ def race() -> Live:
         },
         ask=choose(
             "The goal lies behind the robot. Which of these laws never drives backwards?",
-            "The other speeds contain cos alpha, which is negative as long as the goal is behind. "
-            "Graceful's does not: it drives forwards, in a wide loop.",
+            "The other speeds contain cos alpha, which is negative while the goal is behind.",
             answers={name: v > 0 for name, v in zip(names, speeds, strict=True)},
             wrong=(backs_up, backs_up, backs_up, ""),
         ),
@@ -83,10 +82,10 @@ def heading_power() -> Live:
             defaults={"docking (3, 2)": [3.0, 2.0], "Graceful (2, 1)": [2.0, 1.0]},
         ),
         ask=choose(
-            f"With docking's (3, 2) the robot stops 10 cm before its goal, "
-            f"{math.degrees(first):.1f}° off. How much is left if it stops at 5 cm?",
-            "Halving the distance divides an error that falls as its square by four: the smaller "
-            "of the two gains is the power.",
+            f"With docking's gains (3, 2) the robot stops 10 cm before its goal, "
+            f"{math.degrees(first):.1f}° off. How much is left at 5 cm?",
+            "The error falls as a power of the distance, and the power is the smaller of the two "
+            "gains.",
             answers=nearest(second / first, SHARES),
             wrong=(
                 "The heading settles on the way, and this way is longer.",

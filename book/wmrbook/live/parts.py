@@ -130,7 +130,7 @@ class Live(Knobs):
 
     Parameters
     ----------
-    name : the drawing's file, and of the prediction in a line of answers
+    name : the drawing's file, and of the prediction in what the browser remembers
     sentence : str with {knob} or {result} where a number goes ({knob!} in a formula: without its
         symbol and unit), *symbol* for a coloured symbol, and [formula] for what stays in one line
     knobs : Knob or Choice, by name

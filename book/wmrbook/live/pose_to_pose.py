@@ -30,10 +30,10 @@ def x_axis() -> Live:
         },
         ask=Ask(
             "turn",
-            f"The robot starts with a heading of {math.degrees(north.start.heading):.0f}°, and x "
-            "is north, y east. Which way does it face on a map with north up? Turn the arrow.",
-            "A heading is counted from x towards y, so from north it goes clockwise, like a "
-            "bearing. The same number, counted from east, goes the other way round.",
+            f"The robot's heading is {math.degrees(north.start.heading):.0f}°, x is north, y is "
+            "east. Which way does it face, with north up? Turn the arrow.",
+            "A heading is counted from x towards y: from north it goes clockwise, as a bearing "
+            "does.",
             key=key,
             pane="whole",
             at=tuple(east.start[:2]),

@@ -30,22 +30,21 @@ def silence() -> Live:
             "brake": Knob(brake, 1.0, 5.0, 0.1, "the braking, a", "m/s²", "a"),
         },
         ask=choose(
-            "Its fixes stop. A robot drives on for half a second, then brakes at 1 m/s² and "
-            "stands. Its twin comes at twice the speed, 2 m/s. How far does the twin roll?",
-            "The way during the timeout grows with the speed, the way while braking with its "
-            "square. The faster the robot, the more the second one counts.",
+            "At 1 m/s the robot drives on for 0.5 s without a fix, then brakes. How much farther "
+            "does it roll at 2 m/s?",
+            "The way before it brakes grows with the speed, the way while it brakes with the "
+            "square.",
             answers={
                 "twice as far": times < 2.1,
-                "between two and four times as far": 2.1 <= times < 3.9,
+                "two to four times as far": 2.1 <= times < 3.9,
                 "four times as far": 3.9 <= times < 4.1,
-                "more than four times as far": times >= 4.1,
+                "farther still": times >= 4.1,
             },
             wrong=(
-                "The way while braking grows with the square of the speed.",
+                "The way while it brakes grows with the square of the speed.",
                 "",
-                "So it would be if it braked at once. Half a second is driven at full speed, "
-                "and that way is doubled.",
-                "No part of its way grows by more than the square of the speed.",
+                "The half second before it brakes adds a way that is only doubled.",
+                "No part of the way grows by more than the square of the speed.",
             ),
             asked=({"speed": 2.0},),
         ),

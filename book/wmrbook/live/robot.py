@@ -27,14 +27,13 @@ def turning_centre() -> Live:
         },
         data={"track": TRACK},
         ask=choose(
-            "The right wheel rolls twice as fast as the left one, both forward. Where is the point "
-            "about which the robot turns?",
-            "The slower wheel has the shorter way round, so the centre lies on its side; and both "
-            "go forward, so it lies beyond it.",
+            "The right wheel rolls twice as fast as the left one, both forward. About which point "
+            "does the robot turn?",
+            "The slower wheel has the shorter way round, so the centre lies beyond it.",
             answers={
-                "between the wheels": abs(where) < TRACK / 2,
-                "to its left, beyond the slower wheel": where > TRACK / 2,
-                "to its right, beyond the faster wheel": where < -TRACK / 2,
+                "one between the wheels": abs(where) < TRACK / 2,
+                "one to its left": where > TRACK / 2,
+                "one to its right": where < -TRACK / 2,
             },
             wrong=(
                 "It lies between the wheels only if they roll against each other.",
@@ -56,15 +55,14 @@ def one_step() -> Live:
         {"dt": Knob(DT, 0.02, 1.5, None, "time step", "s", label="time step")},
         data={"v": V, "omega": OMEGA},
         ask=choose(
-            f"In steps of {DT} s, each straight on along the old heading, the robot ends "
-            f"{_miss(DT):.1f} m from the half circle's end. How far with steps half as long?",
-            "A step half as long misses a quarter as much, but there are twice as many, and the "
-            "misses add up. So it is for every Euler step that is short enough.",
+            f"In straight steps of {DT} s the robot ends {_miss(DT):.1f} m beside the half "
+            "circle's end. How far with steps half as long?",
+            "Each step misses a quarter as much, but there are twice as many.",
             answers=nearest(halved, shares),
             wrong=(
                 "Each step misses less, and so does the end.",
                 "",
-                "Each step misses a quarter as much, but there are twice as many.",
+                "Each step misses a quarter as much, but there are twice as many of them.",
             ),
             asked=({"dt": 0.2},),
         ),

@@ -34,10 +34,9 @@ def corners() -> Live:
         data={"first": first, "last": last, "gains": GAINS._asdict(), "pass": 5.0, "stop": 0.05},
         ask=Ask(
             "turn",
-            "A robot comes from the start and goes on to the goal. Which heading at the corner "
-            "leaves it the same turn, a small one, before the corner and after it? Turn the arrow.",
-            "The heading lies halfway between the two legs' directions, counted along the shorter "
-            "turn. It is no average of two numbers of degrees, and does not point into the corner.",
+            "Which heading at the corner leaves the robot the same small turn before it and after "
+            "it? Turn the arrow.",
+            "It lies halfway between the two legs' directions, counted along the shorter turn.",
             key=heading,
             pane="plane",
             at=corner,
@@ -63,22 +62,21 @@ def passing() -> Live:
         },
         data={"poses": np.transpose(poses).tolist(), "gains": GAINS._asdict()},
         ask=choose(
-            "On each leg the law makes V fall. The robot comes within 5 m of a point, passes it, "
-            "and the next point becomes its goal. What does V do there?",
-            "A new goal is a new error, and so a new V: mostly a larger one, for the next point is "
-            "farther away. Between the changes only the law moves V, and there it falls.",
+            "V falls on each leg. What does V do where the robot passes a point, and the next one "
+            "becomes its goal?",
+            "A new goal is a new error, and the next point is farther away.",
             answers={
-                "It falls on, without a break.": max(map(abs, jumps)) < 1e-6,
-                "It jumps up.": min(jumps) > 1e-6,
-                "It jumps down.": max(jumps) < -1e-6,
-                "It jumps up at some, down at others.": min(jumps) < -1e-6 and max(jumps) > 1e-6,
+                "it falls on": max(map(abs, jumps)) < 1e-6,
+                "it jumps up": min(jumps) > 1e-6,
+                "it jumps down": max(jumps) < -1e-6,
+                "up at some, down at others": min(jumps) < -1e-6 and max(jumps) > 1e-6,
             },
             wrong=(
                 "V measures the way to the goal, and the goal has changed.",
                 "",
                 "The next point is farther away than the one that is passed.",
-                "It could jump down where a point lies nearer than the last. On this route none"
-                " does.",
+                "It could jump down where a point lies nearer than the last; on this route none "
+                "does.",
             ),
         ),
     )

@@ -46,19 +46,18 @@ def unit_circle() -> Live:
             *case[:2], gains={name: it._asdict() for name, it in tunings.items()}, longest=longest
         ),
         ask=choose(
-            "The outdoor drive, x east, in arcs: gentle gains, and a time step a tenth longer than "
-            "the longest with which the angles near the goal settle. Where does it end?",
-            "Here the distance still comes down, so the robot reaches the goal. The angles grow "
-            "from step to step, and it stops at whatever heading it has by then.",
+            "Gentle gains, and a time step a tenth longer than the longest that settles. Where "
+            "does the drive end?",
+            "The distance still comes down, but the angles grow from step to step.",
             answers={
-                "as it should, but for a few degrees": end.arrived and off < 10.0,
+                "as it should, nearly": end.arrived and off < 10.0,
                 "at the goal, looking elsewhere": end.arrived and off >= 10.0,
-                "nowhere: it drives on and on": not end.arrived,
+                "nowhere: it drives on": not end.arrived,
             },
             wrong=(
                 "A tenth too long is too long: the angles grow from step to step.",
                 "",
-                "The distance has a limit of its own, 1.25 s. It still comes down.",
+                "The distance has a limit of its own, 1.25 s: it still comes down.",
             ),
         ),
     )
@@ -97,15 +96,14 @@ def parking() -> Live:
             wheels={"track_width": TRACK, "max_speed": 2.0, "acceleration": 1.0},
         ),
         ask=choose(
-            "The outdoor drive with gentle gains should end at 5 cm. A wheel that is told less "
-            "than 0.1 m/s stands. How far from the goal does the robot stop?",
-            "The speed falls with the distance, and the wheels stand as soon as it is below "
-            "0.1 m/s. The slower the gains brake, the farther away that is.",
+            "Wheels that are told less than 0.1 m/s stand. The drive should end at 5 cm. How far "
+            "from the goal does it stop?",
+            "The speed falls with the distance, and below 0.1 m/s the wheels stand.",
             answers=nearest(end.distance, choices),
             wrong=(
-                "5 cm away the gentle gains ask for 0.04 m/s. Long before, the wheels stand.",
+                "At 5 cm the gentle gains ask for 0.04 m/s; long before, the wheels stand.",
                 "",
-                "Half a metre away they still ask for nearly 0.4 m/s.",
+                "Half a metre away the gains still ask for nearly 0.4 m/s.",
             ),
         ),
     )

@@ -6,75 +6,98 @@ from typing import NamedTuple
 
 
 class Step(NamedTuple):
-    """An idea of a scene that grows: its sentence, and the knobs that do not stand as at first."""
+    """An idea of a scene that grows: on its chip, in a sentence, and in knobs that do not stand as
+    at first.
+    """
 
+    title: str
     says: str
     to: dict[str, float | str] = {}  # noqa: RUF012
 
 
 SCENES = {
     "flat_map": (
-        Step("Over 100 m a flat map is as good as a round one."),
-        Step("A hundred times as far, it is 10,000 times as wrong.", {"km": 10.0}),
-        Step("Farther north the meridians close in faster.", {"km": 10.0, "lat": 66.0}),
-        Step("On the equator they run side by side.", {"km": 10.0, "lat": 0.0}),
+        Step("100 m", "Over 100 m a flat map is as good as a round one."),
+        Step("10 km", "A hundred times as far, it is 10,000 times as wrong.", {"km": 10.0}),
+        Step(
+            "farther north",
+            "Farther north the meridians close in faster.",
+            {"km": 10.0, "lat": 66.0},
+        ),
+        Step("on the equator", "On the equator they run side by side.", {"km": 10.0, "lat": 0.0}),
     ),
     "turning_centre": (
-        Step("Two wheels alike: straight on.", {"left": 1.0, "right": 1.0}),
-        Step("One is slower: an arc about a point on its side.", {"left": 0.5, "right": 1.0}),
-        Step("One stands: the robot turns about it.", {"left": 0.0, "right": 1.0}),
-        Step("One rolls back: the robot turns on the spot.", {"left": -1.0, "right": 1.0}),
+        Step("alike", "Two wheels alike: straight on.", {"left": 1.0, "right": 1.0}),
+        Step(
+            "one slower",
+            "One is slower: an arc about a point on its side.",
+            {"left": 0.5, "right": 1.0},
+        ),
+        Step("one stands", "One stands: the robot turns about it.", {"left": 0.0, "right": 1.0}),
+        Step(
+            "one rolls back",
+            "One rolls back: the robot turns on the spot.",
+            {"left": -1.0, "right": 1.0},
+        ),
     ),
     "polar_angles": (
-        Step("How far? rho, along the line of sight."),
-        Step("Where does it lie? alpha, from the robot's heading."),
-        Step("How should one come? theta, from the goal's heading."),
-        Step("Turn the robot: of the three only alpha changes.", {"heading": 0.0}),
+        Step("rho", "How far? rho, along the line of sight."),
+        Step("alpha", "Where does it lie? alpha, from the robot's heading."),
+        Step("theta", "How should one come? theta, from the goal's heading."),
         Step(
+            "turn the robot", "Turn the robot: of the three only alpha changes.", {"heading": 0.0}
+        ),
+        Step(
+            "turn the goal",
             "Turn the goal: of the three only theta changes.",
             {"heading": 0.0, "goal_heading": 90.0},
         ),
     ),
     "bowl": (
-        Step("Gentle gains: V falls, and not by the steepest way."),
+        Step("gentle gains", "Gentle gains: V falls, and not by the steepest way."),
         Step(
+            "the paper's gains",
             "The paper's gains: a flatter bowl, for h is less, and another way down.",
             {"choice": "paper"},
         ),
         Step(
+            "from above",
             "From above, the bowl is a map of two angles.",
             {"choice": "paper", "tilt": 60.0, "yaw": 0.0},
         ),
     ),
     "lag": (
-        Step("It keeps up with its goal, and stays behind it."),
-        Step("k_rho twice as large: half the distance.", {"k_rho": 3.8}),
-        Step("v_max twice as large: less than half.", {"v_max": 8.0}),
+        Step("at first", "It keeps up with its goal, and stays behind it."),
+        Step("k_rho doubled", "k_rho twice as large: half the distance.", {"k_rho": 3.8}),
+        Step("v_max doubled", "v_max twice as large: less than half.", {"v_max": 8.0}),
     ),
     "window": (
         Step(
+            "it swings",
             "Two numbers are left. With little steering, a small kappa, the heading still swings.",
             {"kappa": 0.15, "h": 0.3},
         ),
-        Step("Enough of it, but h is small: the heading lags.", {"kappa": 4.0, "h": 0.3}),
-        Step("Inside the window the heading settles first.", {"kappa": 4.0, "h": 4.0}),
+        Step(
+            "it lags", "Enough of it, but h is small: the heading lags.", {"kappa": 4.0, "h": 0.3}
+        ),
+        Step("inside", "Inside the window the heading settles first.", {"kappa": 4.0, "h": 4.0}),
     ),
     "rising": (
-        Step("As printed, V rises here."),
-        Step("Let the distance count for more, and it falls.", {"L": 0.001}),
-        Step("Nearer to the goal it rises again.", {"rho": 0.005, "L": 0.001}),
+        Step("at first", "As printed, V rises here."),
+        Step("a small L", "Let the distance count for more, and it falls.", {"L": 0.001}),
+        Step("nearer", "Nearer to the goal it rises again.", {"rho": 0.005, "L": 0.001}),
     ),
     "corners": (
-        Step("A corner that is passed."),
-        Step("A corner where the robot stops takes longer.", {"stop": "stop"}),
-        Step("A sharper corner takes a faster turn.", {"x": 30.0, "y": -20.0}),
-        Step("Hardly a corner, hardly a turn.", {"x": 4.0, "y": 12.0}),
+        Step("passed", "A corner that is passed."),
+        Step("with a stop", "A corner where the robot stops takes longer.", {"stop": "stop"}),
+        Step("sharper", "A sharper corner takes a faster turn.", {"x": 30.0, "y": -20.0}),
+        Step("hardly a corner", "Hardly a corner, hardly a turn.", {"x": 4.0, "y": 12.0}),
     ),
     "race": (
-        Step("The goal is behind: the barrier law backs up to it.", {"law": "barrier"}),
-        Step("The corrected law backs up by little, and turns.", {"law": "corrected"}),
-        Step("Graceful never does: it drives a loop."),
-        Step("With the goal ahead none of them backs up.", {"x": -3.0, "y": -1.0}),
+        Step("barrier", "The goal is behind: the barrier law backs up to it.", {"law": "barrier"}),
+        Step("corrected", "The corrected law backs up by little, and turns.", {"law": "corrected"}),
+        Step("Graceful", "Graceful never does: it drives a loop."),
+        Step("goal ahead", "With the goal ahead none of them backs up.", {"x": -3.0, "y": -1.0}),
     ),
 }
 """Of each figure that grows, its ideas."""

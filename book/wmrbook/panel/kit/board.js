@@ -10,7 +10,7 @@ import {
 import { poseOfError } from './model.js';
 import { written } from './style.js';
 
-// A pane is { x: [from, to, title, write], y: [from, to, title, write], equal, bare, tall, lawn }:
+// A pane is { x: [from, to, title, write], y: [from, to, title, write], equal, bare, lawn }:
 // `equal` scales keep circles round, a `bare` one has no axes, a `lawn`, true or its stripes' width
 // in metres, has a bar for its scale, and `write`, if given, says what a tick's value is called.
 /** @param {HTMLCanvasElement} canvas @param {Colours} colours @param {Spec} spec */

@@ -3,7 +3,7 @@
 import { fromWords, placeOf, putSlider, stepped, stopsOf } from './controls.js';
 import { held, made } from './hands.js';
 import { inWords, isCalm } from './style.js';
-import { putSymbol } from './symbols.js';
+import { putSymbol, roleOf } from './symbols.js';
 import { within } from './numbers.js';
 
 const DRAG = 5; // px of a number's drag a step
@@ -93,6 +93,8 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
         { stops, name } = knob, own = made(row, 'span');
     row.dataset.control = name;
     if (knob.symbol) putSymbol(own, knob.symbol); else own.textContent = knob.label;
+    const role = roleOf(knob.symbol);
+    if (role) row.style.setProperty('--knob-colour', `var(--${role})`);
     const showSlider = putSlider(row, knob.says, stops, {
       get: () => get()[name], set: put(name),
     });

@@ -1,46 +1,52 @@
 // A small thing to move: pictures, a sentence with numbers that can be dragged or typed, a slider
 // for each, and, before it opens, a prediction.
 
+import { NARROW, fitted, widestOf } from './layout.js';
 import { buildGate } from './gate.js';
 import { held, made, placeOn } from './hands.js';
 import { inWords, isCalm, written } from './style.js';
 import { keepKeys } from './controls.js';
 import { paneOf } from './board.js';
+import { putBox } from './box.js';
 import { putKnobs } from './knobs.js';
 import { putSteps } from './steps.js';
 import { repainted } from './surface.js';
 import { showHandles } from './grips.js';
 import { widget } from './widget.js';
+import { within } from './numbers.js';
 
 const REST = 700; // ms between two moves of a knob after which the next is a new run
 const GHOSTS = 2;
 
 // An explorable is, in a file of its own,
 //   panes(values, found, setup, hidden): the panes by name, see board.js, with `alt`, what it shows
-//     in words, and `scrub(x, y, moved, values, found)`: what a
+//     in words, `main` for the one that stands with the sliders on a telephone (else the first),
+//     and `scrub(x, y, moved, values, found)`: what a
 //     pointer on it changes, or nothing; `moved` is [dx, dy] since the last call while it is held,
 //     or null while it passes over;
 //   find(values, setup): what follows from the knobs; throws RangeError, in words, where nothing
 //   does; draw(panes, values, found, hidden, setup): `hidden` before the prediction, when only what
-//   is given may be drawn; say(values, found, setup): the results in the sentence, by name;
+//   is given may be drawn, in each pane something, and `values` are the first ones; say(values,
+//   found, setup): the results in the sentence, by name;
 //   handles(values, found, setup): [{ id, pane, at: [x, y], says, move(x, y): what changes; throws
 //   RangeError, in words, where nothing can }].
 /** @param {string} name @param {Drawing} explorable */
 export const live = (name, explorable) => widget(`live/${name}`, ({ model, el }) => {
   const setup = structuredClone(model.get('setup')),
       root = made(el, 'div', { className: 'wmr live' });
+  root.dataset.open = String(!setup.ask);
   keepKeys(root);
   root.innerHTML =
-      '<div class="live-ask"></div><div class="live-idea"></div><p class="live-sentence"></p>'
-    + '<div class="live-panes"></div><div class="live-rows" role="group" aria-label="controls">'
-    + '</div><p class="live-trouble" role="alert"></p><div ' +
-        'class="wmr-aside" role="status" aria-live="polite"></div>';
+      '<div class="live-ask"></div><div class="live-panes"></div>'
+    + '<div class="live-rows" role="group" aria-label="controls"></div>'
+    + '<p class="live-sentence"></p><p class="live-trouble" role="alert"></p>'
+    + '<div class="wmr-aside" role="status" aria-live="polite"></div>';
   const find = (selector) => root.querySelector(selector), canvases = {},
       values = () => model.get('state');
   const home = Object.fromEntries(setup.knobs.map(({ name, value }) => [name, value]));
   let frame = 0, spoken = 0, colours = null, found = null, refused = '', specs = {};
   let ghosts = {}, changed = -REST; // paths of the runs before, by pane; when a knob last moved
-  let steps = null; // a remembered answer opens the gate before there are any
+  let steps = null;
   const panes = {};
   const keep = () => {
     const now = performance.now(), rested = now - changed > REST;
@@ -89,12 +95,14 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     }, 700);
   };
   const knobs = putKnobs(root, setup, { get: values, set, refuse, changed: say });
-  const gate = setup.ask
-      ? buildGate(find('.live-ask'), setup.ask,
-      { get: values, set, panes: () => panes, host: (name) => canvases[name].parentElement,
-      way: () => found.run, reveal, close })
-      : null;
-  steps = setup.steps.length ? putSteps(find('.live-idea'), setup.steps, (k) => {
+  const announce = (text) => {
+    clearTimeout(spoken);
+    find('.wmr-aside').textContent = text;
+  };
+  const ask = find('.live-ask'), box = putBox(ask, announce),
+      after = box.row('live-steps', 'ideas');
+  ask.hidden = !setup.ask && !setup.steps.length;
+  steps = setup.steps.length ? putSteps(box, after, setup.steps, (k) => {
     setup.step = k;
     knobs.stop();
     // what it says is said of the other knobs where they were at first
@@ -102,7 +110,14 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     if (isCalm()) set(time === undefined ? to : { ...to, time: 1 });
     else knobs.glide([to], () => set({}));
   }) : null;
+  const gate = setup.ask
+      ? buildGate(ask, box, after, setup.ask,
+      { get: values, set, panes: () => panes, host: (name) => canvases[name].parentElement,
+      way: () => found.run, reveal, close, announce })
+      : null;
+  if (!gate) box.show(null, after);
   function close() {
+    steps?.leave();
     set({ ...home });
     ghosts = {};
     delete setup.step;
@@ -120,7 +135,7 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
 
   function build(name, spec) {
     const host = made(find('.live-panes'), 'div',
-        { className: `live-pane${spec.tall ? ' live-tall' : ''}` }),
+        { className: `live-pane${spec.main ? ' live-main' : ''}` }),
         canvas = canvases[name] = made(host, 'canvas', {}, { role: 'img' });
     const scrub = (event, moved) => {
       if (!specs[name].scrub || !panes[name] || !found || (gate && !gate.open())) return;
@@ -147,7 +162,8 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   function draw() {
     frame = 0;
     if (!colours) return;
-    const now = values(), hidden = Boolean(gate && !gate.open());
+    const hidden = Boolean(gate && !gate.open()),
+        now = hidden ? { ...values(), ...home } : values();
     let trouble = refused, sound = true;
     try { found = explorable.find(now, setup); } catch (error) {
       if (!(error instanceof RangeError)) throw error;
@@ -157,8 +173,6 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     // words after pictures: a font on a canvas waits for the styles of all that has changed
     find('.live-trouble').textContent = hidden && found ? '' : trouble;
     knobs.show(now);
-    for (const part of ['.live-idea', '.live-sentence', '.live-rows'])
-      find(part).hidden = hidden;
     if (!found) return;
     const handles = hidden ? [] : explorable.handles ? explorable.handles(now, found, setup) : [];
     for (const name of Object.keys(specs))
@@ -168,6 +182,7 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   }
   function paint(now, hidden) {
     root.found = found; // for tests
+    const first = !Object.keys(specs).length;
     specs = explorable.panes(now, found, setup, hidden);
     for (const [name, spec] of Object.entries(specs)) {
       if (!canvases[name]) build(name, spec);
@@ -181,16 +196,20 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       }
       pane.trail.length = 0;
     }
+    if (first) {
+      if (!root.querySelector('.live-main'))
+        root.querySelector('.live-pane').classList.add('live-main');
+      place();
+    }
     if (gate) gate.draw(); // first, for names keep clear of a guess
     explorable.draw(panes, now, found, hidden, setup);
     Object.values(panes).forEach((pane) => pane.name());
     if (!gate) root.dataset.open = 'true';
   }
-  // What is below the sentence stays under the hand: it keeps the room that it takes anywhere on a
-  // knob's way, and that it once took.
+  // The sentence keeps the room that it takes anywhere on a knob's way, and that it once took.
   const sentence = find('.live-sentence'), SHARES = [0, 0.11, 0.23, 0.37, 0.5, 0.63, 0.77, 0.89, 1];
   let wide = 0, trying = 0;
-  const high = () => sentence.getBoundingClientRect().height;
+  const heightOf = (it) => it.getBoundingClientRect().height, high = () => heightOf(sentence);
   const tryAll = () => {
     // what is being typed would be lost
     if (root.querySelector('.live-number:focus')) { trying = setTimeout(tryAll, 1000); return; }
@@ -207,22 +226,47 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       }
     }
     sentence.style.minHeight = `${Math.max(...heights)}px`;
+    place();
     draw();
+    root.dataset.settled = 'true'; // for tests
   };
-  const room = new ResizeObserver(([{ contentRect: { width } }]) => {
-    sentence.style.minHeight = width === wide ? `${high()}px` : '';
-    if (width === wide) return;
-    wide = width;
-    clearTimeout(trying);
-    if (width) trying = setTimeout(tryAll, 300);
+  // The pictures have the room that all else leaves in the window, or on a slide.
+  const host = find('.live-panes'), slide = root.closest('.page');
+  function place() {
+    const n = Object.keys(specs).length, width = sentence.clientWidth;
+    if (!n || !width) return;
+    const room = slide ? host.clientHeight
+        : within(innerHeight - 130, 420, 720) - (heightOf(root) - heightOf(host));
+    const [spec] = Object.values(specs), best = !slide && width < NARROW
+        ? { columns: 1, width, height: Math.min(0.42 * innerHeight, 1.2 * width) }
+        : fitted(n, slide ? host.clientWidth : width, Math.max(room, 180),
+            n === 1 ? widestOf(spec) : undefined);
+    for (const [name, value] of Object.entries(
+      { columns: best.columns, wide: `${best.width}px`, high: `${best.height}px` }))
+      host.style.setProperty(`--${name}`, value);
+  }
+  const room = new ResizeObserver((entries) => {
+    for (const { target, contentRect: { width } } of entries) {
+      if (target === host) { if (slide) place(); continue; }
+      sentence.style.minHeight = width === wide ? `${high()}px` : '';
+      place();
+      if (width === wide) continue;
+      wide = width;
+      clearTimeout(trying);
+      delete root.dataset.settled;
+      if (width) trying = setTimeout(tryAll, 300);
+    }
   });
   room.observe(sentence);
+  room.observe(host);
+  addEventListener('resize', place);
   const page = repainted(root, [root], (read) => { colours = read; schedule(); });
   model.on('change:state', schedule);
   return () => {
     knobs.stop();
     page.stop();
     room.disconnect();
+    removeEventListener('resize', place);
     clearTimeout(trying);
     cancelAnimationFrame(frame);
     clearTimeout(spoken);

@@ -1,30 +1,24 @@
-// A scene that grows idea by idea: to each belong a sentence and the places of some knobs.
+// A scene that grows idea by idea: to each belong a title, a sentence and the places of some knobs.
 
-import { made } from './hands.js';
-import { putWords } from './symbols.js';
+import { putChip } from './box.js';
 
 /**
- * Buttons with numbers, and the sentence of the one that was taken, until `leave` is called.
- * @param {HTMLElement} root @param {{ says: string, to: Values }[]} steps
+ * A chip for each idea. The sentence of the one that was taken stands in the box until `leave` is
+ * called.
+ * @param {ReturnType<typeof import('./box.js').putBox>} box @param {HTMLElement} row
+ * @param {{ title: string, says: string, to: Values }[]} steps
  * @param {(k: number) => void} take
  */
-export function putSteps(root, steps, take) {
-  const row = made(root, 'div', { className: 'live-steps' },
-      { role: 'group', 'aria-label': 'idea by idea' });
-  const buttons = steps.map((step, k) => made(row, 'button',
-      { type: 'button', textContent: String(k + 1), onclick: () => go(k) },
-      { 'aria-label': `idea ${k + 1} of ${steps.length}` }));
-  const says = made(row, 'span', {}, { role: 'status' });
-  function mark(k, text) {
-    buttons.forEach((each, i) => (i === k ? each.setAttribute('aria-current', 'step')
-        : each.removeAttribute('aria-current')));
-    putWords(says, text);
-  }
-  function go(k) {
+export function putSteps(box, row, steps, take) {
+  const lines = steps.map(({ says }) => box.line('live-says', says));
+  const chips = steps.map(({ title }, k) => putChip(row, title || String(k + 1), () => {
     take(k);
-    mark(k, steps[k].says);
+    mark(k);
+  }));
+  function mark(k) {
+    chips.forEach((each, i) => (i === k ? each.setAttribute('aria-current', 'step')
+        : each.removeAttribute('aria-current')));
+    box.overlay(k < 0 ? null : lines[k]);
   }
-  const leave = () => mark(-1, `One scene, ${steps.length} ideas.`);
-  leave();
-  return { leave };
+  return { leave: () => mark(-1) };
 }

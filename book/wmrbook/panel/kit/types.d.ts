@@ -42,7 +42,7 @@ type View = {
 /** An axis of a pane: from, to, title, and what a number on it is called. */
 type Axis = [number, number, string?, ((value: number) => string)?];
 type Spec = {
-  x: Axis; y: Axis; alt: string; given?: string; equal?: boolean; bare?: boolean; tall?: boolean;
+  x: Axis; y: Axis; alt: string; given?: string; equal?: boolean; bare?: boolean; main?: boolean;
   lawn?: boolean | number;
   ghosts?: boolean;
   scrub?(x: number, y: number, moved: Point | null, values: Values, found: any): Values | null;
@@ -77,7 +77,7 @@ type Handle = {
 };
 type Setup = {
   sentence: string; knobs: Values[]; data: any; ask: Values | null;
-  steps: { says: string, to: Values }[]; step?: number;
+  steps: { title: string, says: string, to: Values }[]; step?: number;
 };
 
 /** A live figure, see live.js. */

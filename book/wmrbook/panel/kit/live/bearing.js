@@ -17,7 +17,7 @@ function find({ east, north }) {
 export default live('bearing', {
   find,
   panes: ({ east, north }, { bearing, sight }) => ({ map: {
-    x: [-66, 66, 'east [m]'], y: [-66, 66, 'north [m]'], equal: true, tall: true,
+    x: [-66, 66, 'east [m]'], y: [-66, 66, 'north [m]'], equal: true,
     given: 'A map around point 1, east to the right and north up.',
     alt: `Point 2 is ${written(east, 'm')} east and ${written(north, 'm')} north of point 1: ` +
         `${clockwise(bearing)} clockwise from north, ${inDegrees(sight)} counter-clockwise from ` +

@@ -24,7 +24,7 @@ export default live('corners', {
     return { ...bend, run: alongRoute({ start, goals, radii: [radii[stop], radii.stop], gains }) };
   },
   panes: ({ x, y }, { heading, run }) => ({ plane: {
-    x: [-34, 38, 'east [m]'], y: [-32, 42, 'north [m]'], equal: true, tall: true,
+    x: [-34, 38, 'east [m]'], y: [-32, 42, 'north [m]'], equal: true,
         given: 'A start, a corner and a goal, joined by two legs.',
     alt: `A route by way of a corner at ${written(x)} and ${written(y)} metres, where the robot ` +
         `looks to ${(heading * DEGREES).toFixed(0)} degrees; ` +

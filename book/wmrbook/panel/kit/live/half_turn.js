@@ -12,7 +12,7 @@ export default live('half_turn', {
     return { run, k: Math.round(time * last), turns: run.omega[0] > 0 ? 'left' : 'right' };
   },
   panes: (values, { run, turns }) => ({
-    plane: { x: [-12.5, 4, 'x [m]'], y: [-4.5, 4.5, 'y [m]'], equal: true, tall: true,
+    plane: { x: [-12.5, 4, 'x [m]'], y: [-4.5, 4.5, 'y [m]'], equal: true,
         given: 'The robot looks away from the goal, 10 m straight behind it.',
         alt: `The robot sets off ${run.v[0] < 0 ? 'backwards' : 'forwards'}, turns ${turns}, ` +
         `and drives to the goal; dashed, the mirror image.` },

@@ -24,26 +24,26 @@ export default live('heading_power', {
   },
   panes: ({ radius }, { left, power: slope }, setup) => ({ error: {
     x: [-2.3, 0.6, 'distance left [m]', power],
-        y: [-4, 2.4, 'heading error [°]', power], tall: true,
-    given: 'Logarithmic scales for the heading error over the distance left.',
+        y: [-4, 2.4, 'heading error [°]', power],
+    given: 'The heading error over the distance left, down to 10 cm, on logarithmic scales.',
     alt: `The heading error over the distance left, both on logarithmic scales: near the goal a ` +
         `line of slope ${written(slope)}; ${written(left * DEGREES, '°')} at ` +
         `${written(radius, 'm')}. Thin lines are Nav2's two defaults.`,
     scrub: (x) => inReach(setup, { radius: 10 ** x }),
   } }),
   draw({ error }, { radius }, { run, others, left, power: slope }, hidden, { data }) {
+    const at = [Math.log10(radius), Math.log10(Math.max(left * DEGREES, LEAST))];
+    error.line(curve(run).filter(([x]) => !hidden || x >= at[0]), 'path');
+    error.dot(at[0], at[1]);
     if (hidden) return;
     Object.keys(data.defaults).forEach((name, i) => {
       const points = curve(others[i]), [x, y] = points[points.length - 1];
       error.line(points, 'ghost', { width: 1.5, dash: i ? [2, 5] : [7, 4] });
       error.text(name, x, y, { role: 'ghost', dx: 4, dy: -12, size: 12 });
     });
-    error.line(curve(run), 'path');
-    const at = [Math.log10(radius), Math.log10(Math.max(left * DEGREES, LEAST))];
     error.line([-1, 1].map((by) => [at[0] + by, at[1] + by * slope]), 'goal',
         { width: 1.5, dash: [3, 4] });
     error.line([[at[0], -4], [at[0], 2.4]], 'rho', { width: 1.5, dash: [3, 4] });
-    error.dot(at[0], at[1]);
   },
   say: ({ k_phi, k_delta }, { time, left, power: slope }) => ({
     power: written(slope) + (k_phi === k_delta ? ', times a logarithm,' : ''),

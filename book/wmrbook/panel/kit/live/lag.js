@@ -13,29 +13,28 @@ export default live('lag', {
     return { run, k: Math.round(time * (run.n - 1)), residual: summarise(run).residual,
         predicted: -Math.log(1 - speed / v_max) / k_rho };
   },
-  panes(values, { run, k, residual }, setup, hidden) {
-    const now = hidden ? 0 : k, near = Math.max(NEAR, 1.25 * run.rho[now]),
+  panes(values, { run, k, residual }) {
+    const near = Math.max(NEAR, 1.25 * run.rho[k]),
         around = (at) => /** @type {Axis} */ ([at - near, at + near]);
     return {
-      circle: { x: around(run.goalX[now]), y: around(run.goalY[now]), lawn: 0.25,
-          given: 'The goal from near, and the robot where it starts.',
+      circle: { x: around(run.goalX[k]), y: around(run.goalY[k]), lawn: 0.25,
+          given: 'The goal from near, and the robot that stays behind it.',
           alt: `The robot ${written(run.rho[k], 'm')} behind the goal, seen from a camera that ` +
           `rides with the goal.` },
       distance: { x: [0, 40, 'time [s]'], y: [0, 0.4, 'distance to the goal [m]'],
-          given: 'Room for the distance over time.',
+          given: 'The distance over time, with the gains at first.',
           alt: `The distance over time levels out at ${written(residual, 'm')}.`,
           scrub: (x) => ({ time: within(x / 40, 0, 1) }) },
     };
   },
-  draw({ circle: picture, distance }, values, { run, k, predicted }, hidden) {
-    const now = hidden ? 0 : k, pose = poseAt(run, now), [x, y] = pose,
-        goal = [run.goalX[now], run.goalY[now], run.goalHeading[now]];
+  draw({ circle: picture, distance }, values, { run, k, predicted }) {
+    const pose = poseAt(run, k), [x, y] = pose,
+        goal = [run.goalX[k], run.goalY[k], run.goalHeading[k]];
     picture.path(run.goalX, run.goalY, 'goal', { width: 1.5, dash: [3, 4] });
-    if (!hidden) picture.path(run.x, run.y, 'path', { to: k + 1 });
+    picture.path(run.x, run.y, 'path', { to: k + 1 });
     picture.pose(goal, 'goal');
     picture.robot(pose);
     picture.arrow(x, y, goal[0], goal[1], 'rho');
-    if (hidden) return;
     picture.text(written(run.rho[k], 'm'), (x + goal[0]) / 2, (y + goal[1]) / 2,
         { role: 'rho', dx: 40 * Math.sin(goal[2]), dy: -40 * Math.cos(goal[2]), align: 'center' });
     distance.line([[0, predicted], [40, predicted]], 'start', { width: 1.5, dash: [6, 4] });

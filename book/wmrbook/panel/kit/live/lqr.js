@@ -83,16 +83,15 @@ export default live('lqr', {
   },
   panes: (values, { run, k, poles }) => ({
     plane: { x: [-10.8, 0.8, 'real part [1/s]'], y: [-2, 2, 'imaginary part [1/s]'],
-        given: 'The plane of the poles.', alt: `The poles at ${poles.map(complex).join(', ')}.` },
-    circle: { x: [-8.6, 2.6, 'x [m]'], y: [-4.8, 4.8, 'y [m]'], equal: true,
-        given: 'The circle of the goal and the robot where it starts.',
+        given: 'The poles at q = 1.', alt: `The poles at ${poles.map(complex).join(', ')}.` },
+    circle: { x: [-8.6, 2.6, 'x [m]'], y: [-4.8, 4.8, 'y [m]'], equal: true, main: true,
+        given: 'The circle of the goal and the way of the robot at q = 1.',
         alt: `The robot ${written(run.rho[k], 'm')} from the goal after ${written(run.t[k], 's')}.`,
         scrub: (x, y) => timeNear(run.x, run.y, x, y, 0.5) },
   }),
-  draw({ plane, circle: picture }, values, { poles, run, k }, hidden, { data: { start } }) {
+  draw({ plane, circle: picture }, values, { poles, run, k }) {
     plane.rect(0, -9, 9, 9, 'rising', 0.12);
     picture.line(run.goal, 'goal', { width: 1.2, dash: [3, 4] });
-    if (hidden) { picture.robot(start); return; }
     for (const [re, im] of poles) plane.cross(re, im, 'path', 8);
     picture.path(run.x, run.y, 'path', { to: k + 1 });
     picture.pose(run.goal[k], 'goal');

@@ -15,16 +15,15 @@ export default live('one_step', {
   },
   panes: (values, { arc, off }, { data: { v, omega } }) => ({ plane: {
     x: [-1.1 * v / omega, 2.1 * v / omega, 'x [m]'],
-        y: [-0.3 * v / omega, 2.7 * v / omega, 'y [m]'], equal: true, tall: true,
-        given: 'The robot at the start, and the half circle on which it turns left.',
+        y: [-0.3 * v / omega, 2.7 * v / omega, 'y [m]'], equal: true,
+        given: 'The half circle on which the robot turns left, and the straight steps beside it.',
     alt: `A half turn in ${arc.length - 1} steps: the arcs lie on the half circle, Euler's ` +
         `straight steps go outside of it and end ${written(off, 'm')} away.`,
   } }),
   draw({ plane }, values, { arc, euler }, hidden, { data: { v, omega } }) {
     const radius = v / omega;
     plane.line(ring(0, radius, radius, -Math.PI / 2, Math.PI / 2), 'path');
-    plane.robot([0, 0, 0], hidden ? 1 : 0.45);
-    if (hidden) return;
+    plane.robot([0, 0, 0], 0.45);
     plane.line(euler, 'ghost', { dash: [6, 4] });
     if (arc.length < 40) {
       euler.slice(1, -1).forEach(([x, y]) => plane.dot(x, y, 'ghost', { size: 3, hollow: true }));

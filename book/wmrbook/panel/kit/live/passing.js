@@ -11,11 +11,12 @@ export default live('passing', {
   },
   panes: ({ radius }, { run }) => ({
     plane: { x: [-8, 54, 'east [m]'], y: [-6, 60, 'north [m]'], equal: true,
-        given: 'Five points of a walk, each with its heading.',
+        given: 'Five points of a walk, each with its heading, and the first leg.',
         alt: `The walk, its points passed within ${written(radius, 'm')}: ` +
         `${written(run.t[run.n - 1], 's')} long.`,
       scrub: (x, y) => timeNear(run.x, run.y, x, y, 6) },
-    value: { x: [0, 60, 'time [s]'], y: [0, 800, 'V'], given: 'V over time: nothing yet.',
+    value: { x: [0, 60, 'time [s]'], y: [0, 800, 'V'], 
+        given: 'V over time, on the first leg.',
         alt: `V over time: ${run.leg[run.n - 1]} jumps between falling legs.`,
         scrub: (x) => ({ time: within(x / run.t[run.n - 1], 0, 1) }) },
   }),
@@ -30,18 +31,18 @@ export default live('passing', {
         plane.dot(x, y, 'ink', { hollow: true });
       }
     });
-    if (hidden) return;
-    plane.path(run.x, run.y);
-    plane.robot(poseAt(run, k));
-    for (let leg = 0, from = 0; leg <= run.leg[run.n - 1]; leg += 1) {
+    const shown = hidden ? run.leg.indexOf(1) - 1 : k;
+    plane.path(run.x, run.y, 'path', { to: hidden ? shown + 1 : run.n });
+    plane.robot(poseAt(run, shown));
+    for (let leg = 0, from = 0; leg <= (hidden ? 0 : run.leg[run.n - 1]); leg += 1) {
       const to = run.leg.indexOf(leg + 1) < 0 ? run.n : run.leg.indexOf(leg + 1);
       value.path(run.t, run.V, 'path', { from, to });
-      if (to < run.n)
+      if (to < run.n && !hidden)
         value.line([[run.t[to], run.V[to - 1]], [run.t[to], run.V[to]]], 'rising',
             { width: 2, dash: [5, 4] });
       from = to;
     }
-    value.dot(run.t[k], run.V[k], 'path', { hollow: true });
+    value.dot(run.t[shown], run.V[shown], 'path', { hollow: true });
   },
   say: (values, { run, k }) =>
       ({ seconds: run.arrived ? written(run.t[run.n - 1], 's') : 'more than two minutes',

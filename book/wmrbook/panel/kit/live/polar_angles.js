@@ -22,7 +22,7 @@ function find({ x, y, heading, goal_heading }, { data: { goal } }) {
 export default live('polar_angles', {
   find,
   panes: (values, { rho, alpha, theta }) => ({ plane: {
-    x: [-1, 8, 'x [m]'], y: [-1, 6, 'y [m]'], equal: true, tall: true,
+    x: [-1, 8, 'x [m]'], y: [-1, 6, 'y [m]'], equal: true,
         given: 'A robot as a dot, the goal with its heading, and the line of sight from the ' +
         'robot to the goal.',
     alt: `The goal is ${written(rho, 'm')} away; alpha, from the robot's heading to the line of ` +

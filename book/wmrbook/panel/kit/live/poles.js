@@ -29,18 +29,18 @@ export default live('poles', {
   },
   panes: (values, { poles, pace, off }) => ({
     plane: { x: [-9, 1, 'real part [1/s]'], y: [-5, 5, 'imaginary part [1/s]'], equal: true,
-        given: 'The plane of the poles.',
+        given: 'The poles of the angles and of the distance with the gains at first.',
         alt: `The poles at ${poles.map(complex).join(' and ')} per second; the distance's at ` +
         `${written(-pace)}.` },
     robot: { x: [-2.2, 1.2, 'x [m]'], y: [-1.4, 1.4, 'y [m]'], equal: true,
-        given: 'The robot, about two metres from its goal.',
+        main: true,
+        given: 'The way of about two metres to the goal, with the gains at first.',
         alt: `The robot's last two metres: it stops ` +
         `${Math.abs(off * DEGREES).toFixed(0)} degrees off.` },
   }),
-  draw({ plane, robot }, values, { poles, pace, run }, hidden, { data: { start, goal } }) {
+  draw({ plane, robot }, values, { poles, pace, run }, hidden, { data: { goal } }) {
     plane.rect(0, -99, 99, 99, 'rising', 0.12);
     robot.pose(goal, 'goal');
-    if (hidden) { robot.robot(start); return; }
     plane.dot(-pace, 0, 'rho', { hollow: true });
     for (const [re, im] of poles) plane.cross(re, im, 'alpha', 8);
     plane.text('distance', -pace, 0, { role: 'rho', dx: -11, align: 'right' });

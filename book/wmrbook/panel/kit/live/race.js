@@ -24,7 +24,7 @@ export default live('race', {
     return { runs, chosen: runs.find((each) => each.law === law) };
   },
   panes: (values, { runs }) => ({ plane: {
-    x: [-4, 4, 'x [m]'], y: [-3, 3, 'y [m]'], equal: true, tall: true, ghosts: false,
+    x: [-4, 4, 'x [m]'], y: [-3, 3, 'y [m]'], equal: true, ghosts: false,
         given: 'A goal, and a robot with the goal straight behind it.',
     alt: `Five paths to the goal. ${runs.map(({ law, arrived, time }) =>
         `${law}: ${arrived ? written(time, 's') : 'does not arrive'}`).join('; ')}.`,

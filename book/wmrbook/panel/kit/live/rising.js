@@ -59,7 +59,8 @@ export default live('rising', {
     robot: { ...around(hidden ? asked.rho : rho), given: 'The robot in that state, on a lawn.',
         alt: `The robot ${written(rho, 'm')} from its goal, alpha ${written(alpha)} and theta ` +
         `${written(theta)} degrees, and where it drives in three seconds with either law.` },
-    time: { x: [0, 3, 'time [s]'], y: [0, 3, 'V / V at first'], given: 'V over time: nothing yet.',
+    time: { x: [0, 3, 'time [s]'], y: [0, 3, 'V / V at first'], 
+        given: 'V over time under (24) as printed, with L = 1 m².',
         alt: `V over three seconds: times ${written(V[0][V[0].length - 1] / V[0][0])} with the ` +
         `printed law, times ${written(V[1][V[1].length - 1] / V[1][0])} with the corrected one.` },
   }),
@@ -69,15 +70,15 @@ export default live('rising', {
     if (!hidden)
       both.forEach(({ x, y }, k) => robot.path(x, y, LAW[k].role, { dash: LAW[k].dash }));
     robot.state(rho, alpha / DEGREES, theta / DEGREES);
-    if (hidden) { plane.dot(alpha, theta, 'ink', { hollow: true }); return; }
+    V.slice(0, hidden ? 1 : 2).forEach((each, k) => {
+      time.path(t, each.map((it) => it / each[0]), LAW[k].role, { dash: LAW[k].dash });
+      time.text(LAW[k].name, 2.9, 2.75 - 0.25 * k, { role: LAW[k].role, align: 'right' });
+    });
+    if (hidden) { plane.dot(alpha, theta, 'rising', { hollow: true }); return; }
     const edge = (k) => k / CELLS * 360 - 180, half = 180 / CELLS;
     for (const [middle, from, to] of rows)
       plane.rect(edge(from), middle - half, edge(to), middle + half, 'rising', 0.3);
     plane.dot(alpha, theta, rate > 0 ? 'rising' : 'path', { hollow: true });
-    V.forEach((each, k) => {
-      time.path(t, each.map((it) => it / each[0]), LAW[k].role, { dash: LAW[k].dash });
-      time.text(LAW[k].name, 2.9, 2.75 - 0.25 * k, { role: LAW[k].role, align: 'right' });
-    });
   },
   handles: ({ alpha, theta }, found, setup) => [{
     id: 'state', pane: 'plane', at: [alpha, theta],

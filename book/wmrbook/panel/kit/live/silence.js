@@ -9,18 +9,17 @@ export default live('silence', {
   },
   panes: ({ speed }, { far, stands }) => ({
     road: { x: [-1, 17, 'way after the last fix [m]'], y: [-1.5, 1.5, '', () => ''],
-        given: 'The robot where it has its last fix.',
+        given: 'The way of the slower robot after its last fix.',
         alt: `The robot rolls ${written(far, 'm')} after its last fix.` },
     speed: { x: [0, 6.2, 'time after the last fix [s]'], y: [0, 4.3, 'speed [m/s]'],
-        given: 'The speed over time: nothing yet.',
+        given: 'The speed of the slower robot over time.',
         alt: `The speed over time: ${written(speed, 'm/s')} at first, 0 after ` +
         `${written(stands, 's')}.` },
   }),
-  draw({ road, speed: pane }, { speed, timeout }, { faith, far, stands }, hidden) {
+  draw({ road, speed: pane }, { speed, timeout }, { faith, far, stands }) {
     road.line([[-1, 0], [17, 0]], 'ghost', { width: 1.5 });
-    road.robot([0, 0, 0], hidden ? 1 : 0.3);
+    road.robot([0, 0, 0], 0.3);
     road.text('last fix', 0, 0.25, { role: 'start', dy: 22, align: 'center' });
-    if (hidden) return;
     road.rect(0, -0.25, faith, 0.25, 'start', 0.5);
     road.rect(faith, -0.25, far, 0.25, 'rising', 0.5);
     road.text('in good faith', 0, -0.25, { role: 'start', dy: -14 });

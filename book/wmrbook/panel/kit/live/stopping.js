@@ -25,7 +25,7 @@ export default live('stopping', {
   panes: ({ stop }, { off }, { data: { goal }, ...setup }) => ({
     near: {
       x: [goal[0] - 1.4, goal[0] + 0.8, 'x [m]'], y: [goal[1] - 1.4, goal[1] + 0.8, 'y [m]'],
-          equal: true, given: 'The goal from near, with the heading that is asked for.',
+          equal: true, given: 'The robot 5 cm before its goal.',
       alt: `The robot stops ${written(stop, 'm')} before the goal, ` +
           `${Math.abs(off * DEGREES).toFixed(0)} degrees off.`,
       scrub(x, y, moved, values, { run, from }) {
@@ -35,7 +35,7 @@ export default live('stopping', {
     },
     errors: {
       x: [-0.35, 2.1, 'distance to go', toGo], y: [-90, 180, 'heading error [°]'],
-          given: 'Axes: the heading error over the distance to go, from 2 m to 1 cm.',
+          given: 'The heading error over the distance to go, down to 5 cm.',
       alt: `The heading error over the distance to go, from 2 m to 1 cm: ` +
           `${(off * DEGREES).toFixed(0)} degrees at ${written(stop, 'm')}.`,
       scrub: (x) => inReach(setup, { stop: 10 ** -x }),
@@ -43,10 +43,9 @@ export default live('stopping', {
   }),
   draw({ near, errors }, { gains, stop }, { all, run, k, off, pose }, hidden, { data: { goal } }) {
     near.pose(goal, 'goal');
-    if (hidden) return;
-    for (const name of ['paper', 'gentle']) {
+    for (const name of hidden ? [gains] : ['paper', 'gentle']) {
       const each = all[name], role = name === gains ? 'path' : 'ghost', points = [];
-      for (let i = each.from; i < each.run.n; i += 1)
+      for (let i = each.from; i < (hidden ? k : each.run.n); i += 1)
         points.push([-Math.log10(each.run.rho[i]), each.off[i] * DEGREES]);
       errors.line(points, role, name === gains ? {} : { width: 1.5, dash: [5, 4] });
       const [x, y] = points[Math.floor(points.length / 6)];
@@ -55,7 +54,7 @@ export default live('stopping', {
     errors.line([[-Math.log10(stop), -90], [-Math.log10(stop), 180]], 'ink',
         { width: 1, dash: [2, 3] });
     errors.dot(-Math.log10(stop), off * DEGREES, 'path');
-    near.path(run.x, run.y, 'ghost', { width: 1.5, dash: [2, 5], from: k });
+    if (!hidden) near.path(run.x, run.y, 'ghost', { width: 1.5, dash: [2, 5], from: k });
     near.path(run.x, run.y, 'path', { from: Math.max(all[gains].from - 200, 0), to: k + 1 });
     near.robot([goal[0], goal[1], goal[2]], 0.25);
     near.robot(pose);

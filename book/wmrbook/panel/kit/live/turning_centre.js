@@ -12,8 +12,8 @@ export default live('turning_centre', {
     return { v, omega, centre: v / omega, wheels: [[left, track / 2], [right, -track / 2]] };
   },
   panes: (values, { v, omega, centre }) => ({ plane: {
-    x: [-1.6, 1.6, 'ahead [m]'], y: [-1.7, 1.7, 'left [m]'], equal: true, tall: true,
-    given: 'A robot seen from above, its left wheel above and its right wheel below.',
+    x: [-1.6, 1.6, 'ahead [m]'], y: [-1.7, 1.7, 'left [m]'], equal: true,
+    given: 'A robot seen from above, with the speeds of its two wheels as arrows.',
     alt: `The robot from above, its wheels' speeds as arrows. ${motion(v, omega, centre)}`,
   } }),
   draw({ plane }, values, { v, omega, centre, wheels }, hidden) {
@@ -25,7 +25,7 @@ export default live('turning_centre', {
     plane.robot([0, 0, 0]);
     for (const [speed, side] of wheels) {
       plane.line([[-0.14, side], [0.14, side]], 'ink', { width: 9 });
-      if (!hidden && speed) plane.arrow(0, side, speed, side, 'path');
+      if (speed) plane.arrow(0, side, speed, side, 'path');
     }
     if (!hidden && v) plane.arrow(0, 0, v, 0, 'start');
     if (hidden || !omega || centre < plane.range[2] || centre > plane.range[3]) return;

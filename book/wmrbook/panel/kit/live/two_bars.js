@@ -37,7 +37,7 @@ export default live('two_bars', {
     robot: { x: [-1.3 * rho, 1.3 * rho], y: [-1.3 * rho, 1.3 * rho], lawn: true,
         given: 'The robot in that state, on a lawn.',
         alt: `The robot in that state, ${written(rho, 'm')} from its goal, with both angles.` },
-    bars: { x: [0.4, 3.6, '', () => ''], y: [-11, 7, 'rate of V [1/s]'],
+    bars: { x: [0.4, 3.6, '', () => ''], y: [-11, 7, 'rate of V [1/s]'], main: true,
         given: 'Room for two bars and their sum.',
         alt: `Two bars, ${written(bars[0])} for the distance and ${written(bars[1])} for the ` +
         `angles, and their sum, ${written(bars[0] + bars[1])}.` },
@@ -53,7 +53,10 @@ export default live('two_bars', {
     [['distance', 'rho', bars[0]], ['angles', 'alpha', bars[1]],
         ['sum', 'ink', sum]].forEach(([name, role, rate], k) => {
       chart.text(name, k + 1, 7, { role, dy: -12 - (k % 2) * lower, align: 'center', fixed: true });
-      if (hidden) return;
+      if (hidden) {
+        chart.text('?', k + 1, 0, { role, dy: 14, size: 20, align: 'center' });
+        return;
+      }
       chart.rect(k + 0.7, 0, k + 1.3, within(rate, -10.2, 5.4), role);
       chart.text(way(rate), k + 1, rate < 0 ? 0 : Math.min(rate, 5.4),
           { role, dy: 12, align: 'center', weight: 400 });

@@ -38,15 +38,15 @@ export default live('window', {
         `kappa minus 1. The point, ${written(kappa)} and ${written(h)}, is ` +
         `${inside ? 'in' : 'out'}side.`,
         scrub: (x, y, moved) => (moved ? pointAt(x, y, named) : null) },
-    path: { x: [-4, 2, 'k_rho x'], y: [-5, 1, 'k_rho y'], equal: true,
-        given: 'The start and the goal.',
+    path: { x: [-4, 2, 'k_rho x'], y: [-5, 1, 'k_rho y'], equal: true, main: true,
+        given: 'The path before the gains are doubled.',
         alt: `The path: the robot stops ${inDegrees(error[run.n - 1] / DEGREES)} off.` },
     poles: { x: [-MOST - 0.3, 0.6, 'real part / λ'], y: [-3.2, 3.2, 'imaginary part / λ'],
         given: 'The plane of the poles, with the distance\'s at minus 1.',
         alt: `The poles of the angles at ${poles.map(complex).join(' and ')}; the distance's at ` +
         `minus 1.` },
     left: { x: [-0.75, 2.3, 'distance left, r', tick], y: [-180, 180, 'heading error [°]'],
-        given: 'Room for the heading error over the distance left.',
+        given: 'The heading error over the distance left, before the gains are doubled.',
         alt: `The heading error over the distance left, at most ${late[0].toFixed(1)} degrees ` +
         `from r = 0.1 on.` },
   }),
@@ -66,15 +66,15 @@ export default live('window', {
     roots.text('slower', 0.6, -2.7, { role: 'rising', align: 'right', size: 13 });
     roots.dot(-1, 0, 'rho', { hollow: true });
     path.pose(GOAL, 'goal');
-    if (hidden) { path.robot(start); return; }
-    plane.dot(kappa, h, 'path', { size: 8 });
-    for (const [re, im] of poles) roots.cross(re, im, 'alpha', 8);
-    for (const at of RADII.map((radius) => -Math.log10(radius)))
-      left.line([[at, -180], [at, 180]], 'ink', { width: 1, dash: [2, 3] });
     left.line(error.map((each, k) => [-Math.log10(run.rho[k]), each]), 'path');
     path.path(run.x, run.y);
     path.robot(start, 0.35);
     path.robot(poseAt(run, run.n - 1));
+    plane.dot(kappa, h, 'path', { size: 8 });
+    if (hidden) return;
+    for (const [re, im] of poles) roots.cross(re, im, 'alpha', 8);
+    for (const at of RADII.map((radius) => -Math.log10(radius)))
+      left.line([[at, -180], [at, 180]], 'ink', { width: 1, dash: [2, 3] });
   },
   handles: ({ kappa, h }, found, { data: { named } }) => [{
     id: 'point', pane: 'plane', at: [kappa, h], says: `kappa ${written(kappa)}, h ${written(h)}`,
