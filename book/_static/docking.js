@@ -1,6 +1,6 @@
-// A chapter's stage stays beside its text where the window is wide enough, and shows the scene that
-// the section being read names. Elsewhere it opens the chapter, and returns where a section shows it
-// again.
+// A chapter's stage stays beside its text where the window is wide enough, and shows the scene
+// that the section being read names. Elsewhere it opens the chapter, and returns where a section
+// shows it again.
 addEventListener('DOMContentLoaded', () => {
   const article = document.querySelector('.bd-article');
   const sections = [...(article?.querySelectorAll('section[class*="stage-"]') || [])];

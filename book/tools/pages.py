@@ -3,7 +3,8 @@ r"""A Sphinx extension: what readers of the pages need and the theme leaves out.
 - A line of code that is too long for its window goes on below, marked; see book.css.
 - A figure is a file of its own, and a second one in the colours of the dark theme.
 - Code of cells in a row that show nothing is folded once, with that of the next.
-- A section that names a scene of its chapter's stage has it as a class, stage-NAME; see docking.js.
+- A section that names a scene of its chapter's stage has it as a class, stage-NAME, for docking.js.
+- What ipywidgets' `interact` shows stands still where no kernel runs.
 - A chapter's title has its number, and below it stands how to run the chapter.
 - The search shows what stands around the words found, from a file beside it: a page that is opened
   from the disk may not fetch another.
@@ -38,6 +39,8 @@ FIGURE = re.compile(
     r'(?: data-motion="(?P<motion>[^"]*)")?>'
 )
 GITHUB = "https://github.com/"
+VIEW = "application/vnd.jupyter.widget-view+json"
+WIDGETS = "application/vnd.jupyter.widget-state+json"
 TAG = re.compile(r"<[^>]+>")
 MODEL = re.compile(r'(?<=")[0-9a-f]{32}(?=": \{"model_name)')
 EMPTY = r"<th\b[^>]*>\s*(?:<p></p>)?\s*</th>"
@@ -147,15 +150,36 @@ def join_code(app, doctree):
             cell.parent.remove(cell)
 
 
-def name_scenes(app, docname, source):
-    """Give a heading whose cell names a scene of the stage a class for it."""
+def prepare(app, docname, source):
+    """Give a heading whose cell names a scene of the stage a class for it, and show `interact`."""
     if not CHAPTER.match(docname):
         return
     notebook = json.loads(source[0])
+    models = notebook["metadata"].get("widgets", {}).get(WIDGETS, {}).get("state", {})
     for cell in notebook["cells"]:
         if name := cell["metadata"].get("stage"):
             cell["source"] = [f"{{.stage-{name}}}\n", *cell["source"]]
+        for output in cell.get("outputs", ()):
+            model = models.get(output.get("data", {}).get(VIEW, {}).get("model_id"), {})
+            if "widget-interact" in model.get("state", {}).get("_dom_classes", ()):
+                del output["data"][VIEW]  # without a kernel they stand still
+                cell["outputs"].insert(0, _still_sliders(model["state"], models))
     source[0] = json.dumps(notebook)
+
+
+def _still_sliders(box: dict, models: dict) -> dict:
+    """The sliders of `interact`, as an output that shows where they stand."""
+    names = (child.removeprefix("IPY_MODEL_") for child in box["children"])
+    rows = []
+    for slider in (models[name]["state"] for name in names):
+        if "max" in slider:
+            ends = " ".join(f'{end}="{slider[end]}"' for end in ("min", "max", "step", "value"))
+            rows.append(
+                f"<label>{slider['description']} "
+                f'<input type="range" disabled {ends}> {slider["value"]:.2f}</label>'
+            )
+    text = f'<div class="still-sliders">{"".join(rows)}</div>'
+    return {"output_type": "display_data", "metadata": {}, "data": {"text/html": [text]}}
 
 
 def begin_chapter(app, doctree):
@@ -272,7 +296,7 @@ def setup(app):
     PygmentsBridge.html_formatter = Lines
     for change in (show_figures, widen, begin_chapter):
         app.connect("doctree-read", change, priority=400)  # before Sphinx collects images, titles
-    app.connect("source-read", name_scenes)
+    app.connect("source-read", prepare)
     app.connect("doctree-read", join_code, priority=410)  # after python_cells
     app.connect("html-page-context", add_words)
     app.connect("build-finished", mend)

@@ -23,6 +23,7 @@ from nbformat import NotebookNode
 
 BOOK = Path(__file__).resolve().parents[1]
 ROOT = BOOK.parent
+VIEW = "application/vnd.jupyter.widget-view+json"
 WIDGETS = "application/vnd.jupyter.widget-state+json"
 
 
@@ -76,6 +77,7 @@ def stored(notebook: NotebookNode) -> str:
             for output in cell.outputs:
                 if "execution_count" in output:
                     output.execution_count = count
+    show_interact(notebook)
     names = {random: f"widget-{place:03}" for place, random in enumerate(slim(notebook), 1)}
     text = nbformat.writes(notebook)
     if names:
@@ -84,7 +86,10 @@ def stored(notebook: NotebookNode) -> str:
 
 
 def fold(notebook: NotebookNode) -> None:
-    """Fold the solutions. JupyterLab unfolds what is run, but not below a folded heading."""
+    """Fold the solutions. JupyterLab unfolds what is run, but not below a folded heading.
+
+    A check is folded too, but the section that it stands in is not.
+    """
     heading = None
     for cell in notebook.cells:
         if cell.cell_type == "markdown" and cell.source.startswith("#"):
@@ -92,7 +97,23 @@ def fold(notebook: NotebookNode) -> None:
             heading.metadata.pop("jp-MarkdownHeadingCollapsed", None)
         elif "hide-cell" in cell.metadata.get("tags", ()):
             cell.metadata["jupyter"] = {"source_hidden": True, "outputs_hidden": True}
-            heading.metadata["jp-MarkdownHeadingCollapsed"] = True
+            if heading.source.startswith("### Exercise"):
+                heading.metadata["jp-MarkdownHeadingCollapsed"] = True
+
+
+def show_interact(notebook: NotebookNode) -> None:
+    """Give what `interact` shows to hosts that have no widgets, too."""
+    models = notebook.metadata.get("widgets", {}).get(WIDGETS, {}).get("state", {})
+    for cell in notebook.cells:
+        for output in cell.get("outputs", ()):
+            view = output.get("data", {}).get(VIEW, {})
+            model = models.get(view.get("model_id"), {}).get("state", {})
+            if "widget-interact" not in model.get("_dom_classes", ()):
+                continue
+            names = (child.removeprefix("IPY_MODEL_") for child in model["children"])
+            drawn = (models[name]["state"].get("outputs", ()) for name in names)
+            pictures = [it["data"]["text/html"] for outputs in drawn for it in outputs]
+            output.data["text/html"] = "".join(pictures)
 
 
 def slim(notebook: NotebookNode) -> dict:
