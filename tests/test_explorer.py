@@ -20,7 +20,7 @@ from kit import printed
 from traitlets import TraitError
 
 import wmrlib as wmr
-from wmrbook import live
+from wmrbook import stages
 from wmrbook.panel import Explorer, MyRobot, kit
 from wmrbook.panel.controls import METHODS
 from wmrlib import paper
@@ -255,13 +255,13 @@ def test_a_page_gets_gains_and_state_in_one_message_and_its_own_not_back(monkeyp
 
 
 def test_other_names_and_the_state_are_refused_by_a_sentence():
-    explorer, thing = Explorer(), live.last_metres()
+    explorer, thing = Explorer(), stages.first_drive()
     before = explorer.state
     for panel, name, words in (
         (explorer, "kp", "no attribute 'kp'; .* gains, .* k_alpha, k_rho, .* layout$"),
         (explorer, "K_rho", "no attribute 'K_rho'"),
         (MyRobot(), "sigma", "no attribute 'sigma'"),
-        (thing, "h", r"no attribute 'h'; you can set \['share'\], "),
+        (thing, "h", r"no attribute 'h'; you can set \['k_rho'\], "),
         (explorer, "moving", "moving"),
     ):
         with pytest.raises((AttributeError, TraitError), match=words):

@@ -151,6 +151,10 @@ def place(state: dict, setup: dict, settings: Iterable[str]) -> None:
         name, _, text = setting.partition("=")
         if setting == "open":
             setup["ask"] = None
+        elif name == "scene" and "scenes" in setup:
+            if text not in (allowed := [scene["name"] for scene in setup["scenes"]]):
+                raise SystemExit(f"{setting}: only {', '.join(allowed)}")
+            state[name] = text
         elif name not in knobs:
             raise SystemExit(f"{setting}: no knob {name!r}, only {', '.join(knobs)}")
         elif "choices" in knobs[name]:

@@ -25,11 +25,11 @@ CELLS = [
 ROWS = "notebooks/rows.ipynb"
 CONTAINERS = [
     """import ipywidgets as w
-from wmrbook import live
+from wmrbook import stages
 from wmrbook.panel import Explorer, Front, MyRobot
 
 def panels():
-    return [Explorer(), live.last_metres(), MyRobot(), Front()]
+    return [Explorer(), stages.first_drive(), MyRobot(), Front()]
 
 def app():
     sides = dict(zip(["header", "left_sidebar", "center", "right_sidebar"], panels()))

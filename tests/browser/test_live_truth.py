@@ -45,12 +45,6 @@ def same_run(results, start, goal, gains, **options) -> wmr.Trajectory:
     return ours
 
 
-def last_metres(values, results, data) -> None:
-    shares = np.array([1 - values["share"], values["share"]])
-    between = np.exp(shares @ np.log([[*data["paper"].values()], [*data["gentle"].values()]]))
-    same_run(results["run"], data["start"], data["goal"], wmr.Gains(*between))
-
-
 def stopping(values, results, data) -> None:
     gains, ends = wmr.Gains(**data[values["gains"]]), (pose(data["start"]), pose(data["goal"]))
     same_run(results["run"], *ends, gains, dt=0.005, arrival_radius=0.01)

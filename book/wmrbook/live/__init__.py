@@ -13,7 +13,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "parts": sorted(PARTS),
-        "first_drive": ["last_metres", "stopping"],
+        "first_drive": ["stopping"],
         "earth": ["bearing", "flat_map"],
         "robot": ["one_step", "turning_centre"],
         "angles": ["half_turn", "polar_angles"],

@@ -1,4 +1,4 @@
-"""Chapter 0 and the book's first page: it arrives, and does not park."""
+"""Chapter 0: where the robot stops, and how far off its heading it is there."""
 
 from __future__ import annotations
 
@@ -7,25 +7,6 @@ import math
 from wmrbook.live.parts import Choice, Knob, Live, between, choose, nearest
 from wmrlib import paper, simulate
 from wmrlib.gains import GENTLE_GAINS
-
-
-def last_metres() -> Live:
-    """The paper's outdoor drive, its last two metres, and one slider that mends its end."""
-    start, goal, gains, _ = paper.outdoor()
-    return Live(
-        "last_metres",
-        "With *k_rho* = {k_rho}, *k_alpha* = {k_alpha} and *h* = {h} the robot arrives after "
-        "{seconds} and stops {off} off its heading.",
-        {
-            "share": Knob(
-                0.0, 0.0, 1.0, 0.02, "from the paper's gains to gentle ones", label="gentler"
-            ),
-            "time": Knob(
-                0.0, 0.0, 1.0, 0.01, "how far on its way", label="on its way", plays=6.0, auto=True
-            ),
-        },
-        data=between(start, goal, paper=gains._asdict(), gentle=GENTLE_GAINS._asdict()),
-    )
 
 
 def stopping() -> Live:

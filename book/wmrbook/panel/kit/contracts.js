@@ -10,7 +10,6 @@ export const CONTRACTS = {
   'live/half_turn': 'cdce76ec',
   'live/heading_power': 'c32b70cd',
   'live/lag': '1ddedf20',
-  'live/last_metres': '4f2d412d',
   'live/late': '61274cc8',
   'live/lqr': '7ac97a13',
   'live/one_step': '6eebb65e',
