@@ -45,7 +45,7 @@ SOLUTION = re.compile(
     r"\n*<details><summary>Solution</summary>.*?</details>| Click \*\*1 cell hidden.*?solution\.",
     re.DOTALL,
 )
-WIDGET = re.compile(r'\bwidget-(?=\d{3}")')  # as run.py names them
+WIDGET = re.compile(r'(?<=["_])widget-(?=\d{3}")')  # as run.py names them
 SPHINX = ("-j", "auto", "--fail-on-warning", "--keep-going", "--nitpicky", "--quiet")
 NO_NPM = (
     "The book needs npm for its JavaScript: install Node.js (Debian: apt install npm), "
@@ -200,19 +200,24 @@ def copy_sources(source: Path, lecturer: bool = False) -> None:
         notebook = nbformat.reads(text, as_version=4)
         if not lecturer:
             without_solutions(notebook)
+        told = sum("stage" in cell.metadata for cell in notebook.cells) > 1
         for cell in notebook.cells:
-            if cell.cell_type == "code":
+            if cell.cell_type == "code" and not told:  # in scenes, with code that is read
                 cell.metadata.setdefault("tags", []).append("hide-input")
         nbformat.write(notebook, chapter)
 
 
 def without_solutions(chapter: NotebookNode) -> NotebookNode:
     """Take the solutions of its exercises, and the code behind them, out of a chapter."""
-    shared = (cell for cell in chapter.cells if "hide-cell" not in cell.metadata.get("tags", ()))
-    chapter.cells = [cell for cell in shared if cell.source != "#### Solution"]
+    chapter.cells = [cell for cell in chapter.cells if not _solves(cell)]
     for cell in chapter.cells:
         cell.source = SOLUTION.sub("", cell.source)
     return chapter
+
+
+def _solves(cell: NotebookNode) -> bool:
+    folded = "hide-cell" in cell.metadata.get("tags", ())
+    return cell.source == "#### Solution" or (folded and not cell.source.startswith("# Check"))
 
 
 def environment() -> dict[str, str]:

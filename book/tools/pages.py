@@ -5,7 +5,7 @@ r"""A Sphinx extension: what readers of the pages need and the theme leaves out.
 - Code of cells in a row that show nothing is folded once, with that of the next.
 - A section that names a scene of its chapter's stage has it as a class, stage-NAME, for docking.js.
 - What ipywidgets' `interact` shows stands still where no kernel runs.
-- A chapter's title has its number, and below it stands how to run the chapter.
+- A chapter's title has its number, and before its first section stands how to run the chapter.
 - The search shows what stands around the words found, from a file beside it: a page that is opened
   from the disk may not fetch another.
 - What a screen reader would stumble over in the theme's own HTML is mended.
@@ -190,7 +190,8 @@ def begin_chapter(app, doctree):
         return
     title.insert(0, nodes.Text(f"{int(chapter[1])}. "))
     run_it = how_to_run(f"{app.env.docname}.ipynb", first_cell.address())
-    title.parent.insert(title.parent.index(title) + 1, nodes.raw("", run_it, format="html"))
+    below = title.parent.next_node(nodes.section, descend=True)  # the first screen is the stage's
+    title.parent.insert(title.parent.index(below), nodes.raw("", run_it, format="html"))
 
 
 def how_to_run(name: str, repository: str) -> str:

@@ -40,7 +40,9 @@ REVEAL_FILES = (
     "reveal.js/LICENSE",
 )
 BESIDE = ("mathjax.js", "_static/widgets.js", "deck/deck.css", "deck/deck.js")
-SOLUTION = re.compile(r"<details><summary>Solution</summary>\n\n(.*?)\n\n</details>", re.DOTALL)
+FOLDED = re.compile(
+    r"<details><summary>(Hint|Solution)</summary>\n\n(.*?)\n\n</details>", re.DOTALL
+)
 SLIDE = re.compile(r"# (?P<title>.*)\n+(?:figure: (?P<figure>.*)\n+)?(?P<words>[\s\S]*?)"
                    r"(?:^note: (?P<notes>[\s\S]*))?\Z", re.MULTILINE)  # fmt: skip
 KIND = "application/vnd.jupyter.widget"
@@ -172,7 +174,7 @@ def solved(number: str) -> str:
     text = "\n\n".join(it.source for it in chapter(number).cells if it.cell_type == "markdown")
     parts = re.split(r"^(?=### Exercise |## )", text, flags=re.MULTILINE)
     exercises = (part.replace("#### Solution\n", "") for part in parts if "### Exercise " in part)
-    return "\n\n".join(SOLUTION.sub(r"**Solution.** \1", exercise) for exercise in exercises)
+    return "\n\n".join(FOLDED.sub(r"**\1.** \2", exercise) for exercise in exercises)
 
 
 def write(path: Path, title: str, slides: list[Slide], number: int | None = None) -> None:

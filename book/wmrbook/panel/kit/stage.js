@@ -276,7 +276,7 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
         it.setAttribute('aria-hidden', String(!on));
       }
       for (const [result, place] of places) {
-        const text = String(results[result]);
+        const text = String(results[result]).replace(' ', '\u00a0'); // a number and its unit
         if (place.textContent !== text) place.textContent = text;
       }
     }
