@@ -87,8 +87,12 @@ def test_the_guide_and_the_solutions_are_not_in_what_is_handed_out(tmp_path):
     text = "\n".join(path.read_text(encoding="utf-8") for path in paths).replace("\\n", "\n")
     text = " ".join(text.split())
     assert "## Exercises" in text
-    for leak in "](lecturers.md", "hide-cell", "<summary>Solution", "### BEGIN", *closed():
+    for leak in "](lecturers.md", "<summary>Solution", "### BEGIN", *closed():
         assert leak not in text, leak
+    for path in tmp_path.glob("notebooks/*.ipynb"):
+        for cell in nbformat.read(path, as_version=4).cells:
+            check = cell.source.startswith("# Check")
+            assert check or "hide-cell" not in cell.metadata.get("tags", ()), cell.source
 
 
 def test_a_python_is_refused_unless_pyproject_allows_it():
