@@ -1,5 +1,5 @@
-// One switch unfolds the code of every chapter, and a symbol that is touched lights up wherever it
-// stands.
+// One switch unfolds the code of every chapter, a symbol that is touched lights up wherever it
+// stands, and each copy button says what it copies.
 addEventListener('DOMContentLoaded', () => {
   const KEY = 'wmr-code', root = document.documentElement;
   const kept = () => { try { return localStorage.getItem(KEY); } catch { return null; } };
@@ -21,6 +21,25 @@ addEventListener('DOMContentLoaded', () => {
     });
     place.append(' ', button);
     if (kept() === 'shown') turn(true); // an answer's cell is open anyhow
+  }
+
+  const nameButton = (button) => {
+    const block = document.querySelector(button.dataset.clipboardTarget);
+    const [line] = block.textContent.trim().split('\n');
+    const kind = button.closest('.cell_output') ? 'output' : 'code';
+    const { tooltip } = button.dataset; // what came of it, for a moment
+    button.setAttribute('aria-label',
+        tooltip === 'Copy' ? `Copy the ${kind}: ${line.slice(0, 60)}` : tooltip);
+  };
+  const article = document.querySelector('.bd-article');
+  article?.querySelectorAll('.copybtn').forEach(nameButton);
+  if (article) { // or they come later, when their own script has been loaded
+    const options = { attributeFilter: ['data-tooltip'], childList: true, subtree: true };
+    new MutationObserver((changes) => {
+      for (const { target, addedNodes } of changes)
+        for (const it of [target, ...addedNodes])
+          if (it instanceof Element && it.matches('.copybtn')) nameButton(it);
+    }).observe(article, options);
   }
 
   const roleOf = (target) => {

@@ -66,6 +66,10 @@ STATES = re.compile(
 VIEW = re.compile(
     r'<script type="application/vnd.jupyter.widget-view\+json">\s*(\{.*?\})\s*</script>', re.DOTALL
 )
+# The theme's skip link leads to the text; a second one leads to the first panel.
+SKIP = '<a href="#main-content">Skip to main content</a>'
+TO_PANEL = '<a href="#first-panel">Skip to the first moving picture</a>'
+PANEL = '<div id="first-panel" tabindex="-1"></div>'
 STILL = re.compile(r'<img alt="(?P<alt>[^"]*)" .*?src="data:image/png;base64,(?P<png>[^"]*)"')
 # From a page's HTML to the words to be found, with the sections that results lead to.
 ARTICLE = re.compile(r'<article class="bd-article">(.*?)</article>', re.DOTALL)
@@ -222,6 +226,8 @@ def mend(app, exception):
             text = DESIGN.sub("", text)
         for count, model in enumerate(dict.fromkeys(MODEL.findall(text)), 1):  # named at random
             text = text.replace(model, f"widget-{count:03}")
+        if VIEW.search(text):
+            text = VIEW.sub(rf"{PANEL}\g<0>", text.replace(SKIP, SKIP + TO_PANEL), count=1)
         text = with_stills(text, Path(app.outdir), "../" * name.count("/"))
         path.write_text(text, encoding="utf-8")
         if name in app.env.found_docs:

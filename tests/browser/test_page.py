@@ -204,6 +204,39 @@ def test_one_switch_unfolds_the_code_of_every_chapter(opened):
     assert all(opened("notebooks/07_the_circle.html").evaluate(folded))
 
 
+def test_a_copy_button_says_what_it_copies(opened):
+    page = opened("use.html")
+    page.wait_for_function("() => document.querySelector('.copybtn')?.ariaLabel")
+    names = page.evaluate("[...document.querySelectorAll('.copybtn')].map(it => it.ariaLabel)")
+    assert all(re.match(r"Copy the (code|output): \S", name) for name in names)
+    assert len(set(names)) > 3
+
+
+@pytest.mark.parametrize("name", ["notebooks/03_polar_coordinates.html", "index.html"])
+def test_the_first_control_of_a_panel_is_at_most_five_keys_away(name, opened):
+    page = opened(name)
+    there = "document.activeElement.matches('.wmr *')"
+    page.keyboard.press("Tab")
+    page.keyboard.press("Tab")
+    link = page.evaluate("document.activeElement.textContent")
+    assert link == "Skip to the first moving picture"
+    page.keyboard.press("Enter")
+    page.keyboard.press("Tab")
+    if not page.evaluate(there):  # a picture that scrolls
+        page.keyboard.press("Tab")
+    assert page.evaluate(there)
+    box = page.evaluate("document.activeElement.getBoundingClientRect().toJSON()")
+    assert 0 <= box["top"] < 900  # and in sight
+
+
+def test_every_page_with_a_panel_has_a_link_to_it(site):
+    for path in pages(site):
+        text = path.read_text(encoding="utf-8")
+        view = text.find("widget-view+json")
+        assert (view > 0) == ('href="#first-panel"' in text), path.name
+        assert view < 0 or 0 < text.find('id="first-panel"') < view, path.name
+
+
 def test_a_symbol_that_is_touched_lights_up_and_no_other_and_has_a_halo_in_the_pictures(opened):
     page = opened("notebooks/04_lyapunov.html")
     page.locator("article h1").hover()
