@@ -12,6 +12,7 @@ from nbclient.exceptions import CellExecutionError
 
 ROOT = Path(__file__).parent.parent
 CHAPTERS = sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+NUMBER = r"(?<![\w.(])\d[\d.,]*(?:e[+-]?\d+)?"
 FLIPS = {  # the formula: the chapter that derives it, its text, and what to make of it
     "the theta row (8)": (
         "03_polar_coordinates",
@@ -41,6 +42,19 @@ def test_figures_have_captions_in_order(path):
         if caption := re.match(r"\*\*Figure .*?\*\* ", cell.source):
             captions.append((place, caption[0]))
     assert captions == wanted
+
+
+@pytest.mark.parametrize("path", CHAPTERS[1:], ids=lambda path: path.stem)
+def test_more_than_three_numbers_are_a_table(path):
+    """Neither a block of print, an array nor a dictionary stands in the text."""
+    for cell in nbformat.read(path, as_version=4).cells:
+        for output in cell.get("outputs", ()):
+            data = output.get("data", {})
+            plain = {"text/plain"}.issuperset(data)  # nothing that a page could typeset
+            text = output.get("text", data.get("text/plain", "")) if plain else ""
+            refused = "is not allowed: " in text  # a message of ours, with what it asks for
+            assert refused or len(re.findall(NUMBER, text)) <= 3, (cell.id, text)
+            assert not re.search(r"array\(|^[{\[(]", text), (cell.id, text)
 
 
 @pytest.mark.slow
