@@ -12,7 +12,7 @@ from nbclient.exceptions import CellExecutionError
 
 ROOT = Path(__file__).parent.parent
 CHAPTERS = sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
-NUMBER = r"(?<![\w.(])\d[\d.,]*(?:e[+-]?\d+)?"
+NUMBER = r"(?<![\w.(])\d[\d.,]*(?:e[+-]?\d+)?(?![\d./])"  # neither 1/s nor (24)
 FLIPS = {  # the formula: the chapter that derives it, its text, and what to make of it
     "the theta row (8)": (
         "03_polar_coordinates",
