@@ -56,6 +56,11 @@ FLIPS = {  # what a stage's module takes from wmrlib, and the same with a flippe
     "gps_points local_position": lambda f: lambda a, b: (10 * f(a, b)[0], 10 * f(a, b)[1]),
     "two_wheels advance": lambda f: lambda *to: f(*to)._replace(y=-f(*to).x),
     "three_numbers simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(h=2.0), **o),
+    "downhill lyapunov": lambda f: lambda *a: -f(*a),
+    "two_drives simulate": lambda f: (
+        lambda *a, arrival_radius, **o: f(*a, arrival_radius=0.005 / arrival_radius, **o)
+    ),
+    "two_numbers simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(h=k.k_rho), **o),
     "moving_goal track": lambda f: lambda g, a, k, **o: f(g, a, k._replace(k_rho=1 / k.h), **o),
     "late_looks simulate": lambda f: lambda *a, dt, **o: f(*a, dt=0.002 / dt, **o),
     "noisy_fixes sweep": lambda f: lambda a, b, k, **o: f(a, b, _turned_thrice(k), **o),

@@ -30,6 +30,7 @@ export const CONTRACTS = {
   'stages/as_printed': 'b121c742',
   'stages/course_from_gps': '1a8e6725',
   'stages/crooked_compass': '6a7571be',
+  'stages/downhill': 'c1159927',
   'stages/first_drive': '092554ab',
   'stages/gps_points': '00926cba',
   'stages/late_looks': '2f3036d5',
@@ -39,5 +40,7 @@ export const CONTRACTS = {
   'stages/seam': '802b22f6',
   'stages/standing_still': 'c2ebee23',
   'stages/three_numbers': '2ab00e1d',
+  'stages/two_drives': '0eb9a4c2',
+  'stages/two_numbers': '1e36a0bf',
   'stages/two_wheels': 'b9859633',
 };

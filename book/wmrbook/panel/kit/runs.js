@@ -73,7 +73,7 @@ export function endOf(run, goal) {
   const last = run.n - 1, off = inDegrees(Math.abs(wrap(run.heading[last] - goal[2])), 0);
   return run.outcome === 'ARRIVED'
       ? `stops after ${written(run.t[last], 's')}, ${off} off its heading`
-      : `is still ${written(run.rho[last], 'm')} away after a minute`;
+      : `is still ${written(run.rho[last], 'm')} away after ${written(run.t[last], 's')}`;
 }
 
 // Gains between two others, by their logarithms.

@@ -23,8 +23,9 @@ const ease = (share) => share * share * (3 - 2 * share);
 /**
  * A chapter gives, in a file of its own,
  *   find(values, setup): what follows from the knobs: { tracks, ... }, each track { t, x, y,
- *     heading, n, role }, the robot's samples in time, in seconds, metres and radians; throws
- *     RangeError, in words, where nothing follows;
+ *     heading, n, role, share }, the robot's samples in time, in seconds, metres and radians, its
+ *     colour, and how opaque it is if less than wholly; throws RangeError, in words, where nothing
+ *     follows;
  *   say(values, found, setup): the results in the sentences, by name;
  *   look(values, found, setup, how): what the camera shows, [left, bottom, right, top] in metres,
  *     where that is neither all of the way ("whole") nor the goal ("near");
@@ -94,7 +95,7 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
   function putWordsOf({ name: of, says, ask }) {
     const results = [];
     const putText = (it, text) => {
-      for (const piece of text.split(/(\{[a-z_]+\}|\*[a-z_]+\*)/)) {
+      for (const piece of text.split(/(\{[a-z_]+\}|\*[A-Za-z_]+\*)/)) {
         if (piece[0] === '{')
           results.push([piece.slice(1, -1), made(it, 'b', { className: 'live-result' })]);
         else if (piece[0] === '*') putSymbol(it, piece.slice(1, -1));
@@ -252,7 +253,8 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
     if (start) pane.pose(start, 'start');
     if (play.draw) play.draw(pane, state, found, now, setup);
     if (!it.empty)
-      found.tracks.forEach(({ role }, k) => pane.robot(sampled[k].pose, 1, { size, role }));
+      found.tracks.forEach(({ role, share = 1 }, k) =>
+        pane.robot(sampled[k].pose, share, { size, role }));
     if (play.above) play.above(pane, state, found, now, setup);
     if (goal) pane.pose(goal, 'goal');
     const off = goal ? wrap(now.pose[2] - goal[2]) : 0;

@@ -4,7 +4,7 @@ import {
   DEGREES, driven, insetOf, insetSize, lengthText, roundBelow, stage, within, wrap, written,
 } from '../drawing.js';
 
-const MARGIN = 5; // m
+const MARGIN = 5, BELOW = 10; // m
 const LATTICE = [-4, -3, -2, -1, 0, 1, 2, 3, 4]; // steps from the middle
 
 // Latitude and longitude of a place on the lawn, and back.
@@ -27,7 +27,7 @@ export default stage('gps_points', {
   },
   look({ start, goal }, { told }) {
     const [xs, ys] = [0, 1].map((i) => [start[i], goal[i], told[i]]);
-    return [Math.min(...xs) - MARGIN, Math.min(...ys) - MARGIN, Math.max(...xs) + MARGIN,
+    return [Math.min(...xs) - MARGIN, Math.min(...ys) - BELOW, Math.max(...xs) + MARGIN,
       Math.max(...ys) + MARGIN];
   },
   say: ({ start, goal }, { count, miss }) => ({
