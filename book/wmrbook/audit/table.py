@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from wmrbook import tables
 from wmrbook.audit.row import Row, Verdict
 
 SOURCE = "Judged from a converted text of the paper: a slip may be the conversion's."
@@ -81,13 +80,13 @@ class Table:
 
     def markdown(self) -> str:
         """The source, and a pipe table with a line for each row."""
-        lines = []
+        lines = ["| " + _HEAD + " |", "|" + ":-|" * (1 + _HEAD.count("|"))]
         for row in self.rows:
             verdict = f"**{row.verdict.value}**: {row.why}"
             links = _linked(self.where.get(row.item, ()))
-            lines.append((f"**{row.title}**", verdict, row.says, row.holds, links))
-        escaped = (" | ".join(cell.replace("|", r"\|") for cell in line) for line in lines)
-        return f"*{SOURCE}*\n\n{tables.Table(_HEAD, escaped, ':-')}"
+            cells = f"**{row.title}**", verdict, row.says, row.holds, links
+            lines.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
+        return "\n".join([f"*{SOURCE}*", "", *lines])
 
     def __repr__(self) -> str:
         width = max((len(row.title) for row in self.rows), default=0)
