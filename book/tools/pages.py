@@ -39,7 +39,7 @@ FIGURE = re.compile(
     r'(?: data-motion="(?P<motion>[^"]*)")?>'
 )
 GITHUB = "https://github.com/"
-VIEW = "application/vnd.jupyter.widget-view+json"
+SHOWN = "application/vnd.jupyter.widget-view+json"
 WIDGETS = "application/vnd.jupyter.widget-state+json"
 TAG = re.compile(r"<[^>]+>")
 MODEL = re.compile(r'(?<=")[0-9a-f]{32}(?=": \{"model_name)')
@@ -164,9 +164,9 @@ def prepare(app, docname, source):
         if name := cell["metadata"].get("stage"):
             cell["source"] = [f"{{.stage-{name}}}\n", *cell["source"]]
         for output in cell.get("outputs", ()):
-            model = models.get(output.get("data", {}).get(VIEW, {}).get("model_id"), {})
+            model = models.get(output.get("data", {}).get(SHOWN, {}).get("model_id"), {})
             if "widget-interact" in model.get("state", {}).get("_dom_classes", ()):
-                del output["data"][VIEW]  # without a kernel they stand still
+                del output["data"][SHOWN]  # without a kernel they stand still
                 cell["outputs"].insert(0, _still_sliders(model["state"], models))
     source[0] = json.dumps(notebook)
 

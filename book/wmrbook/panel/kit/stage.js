@@ -15,6 +15,7 @@ import { within } from './numbers.js';
 import { wrap } from './model.js';
 
 const DRIVE = 4000, FLIGHT = 1100; // ms: a drive, and the camera's way from one scene to the next
+const FOOT = 40; // px below, for the buttons and the scale
 const ROBOT = 0.6, ICON = 27; // m and px, the robot's length and that of its drawing
 const NEAR = 1.25, MARGIN = 5; // m round the goal seen from near, and round all of a drive
 const PARKED = 2 / DEGREES; // rad off, which nobody sees
@@ -204,8 +205,8 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
   // Where the camera is: its middle and how many pixels a metre has.
   function aimed({ width, height }) {
     const [left, bottom, right, top] = boxNow();
-    return { x: (left + right) / 2, y: (bottom + top) / 2,
-      scale: Math.min(width / (right - left), height / (top - bottom)) };
+    const scale = Math.min(width / (right - left), (height - FOOT) / (top - bottom));
+    return { x: (left + right) / 2, y: (bottom + top - FOOT / scale) / 2, scale };
   }
   function seen(now, size) {
     const to = aimed(size);
