@@ -12,12 +12,13 @@ from pathlib import Path
 import build
 import nbformat
 import pytest
+import stills as take
 from lecturers import closed
 from packaging.requirements import Requirement
 from pybtex.database import parse_file
 
 from wmrbook import live, stages
-from wmrbook.panel import Explorer
+from wmrbook.panel import Explorer, stills
 
 ROOT = Path(__file__).parent.parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -274,6 +275,12 @@ def test_the_stored_panels_are_those_of_now():
         for it in drawn:
             fresh = now[it["program"]] == (it["contract"], it["_esm"])
             assert fresh, f"{name}: book/tools/run.py stores {it['program']} anew"
+
+
+def test_each_panel_that_the_book_offers_has_a_picture_and_no_other_is_kept():
+    """Else run book/tools/stills.py."""
+    wanted = {stills.digest(*it) for it in (*take.offered(), *take.stored())}
+    assert {path.stem for path in stills.FOLDER.glob("*.html")} == wanted
 
 
 def test_what_moves_stands_in_one_chapter_and_its_prediction_is_still_open():

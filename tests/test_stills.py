@@ -7,8 +7,6 @@ import re
 
 import pages
 import pytest
-
-pytest.importorskip("playwright", reason="the pictures are taken with playwright")
 import stills as tool
 
 from wmrbook import live
@@ -42,11 +40,6 @@ def test_all_pictures_of_the_chapters_together_take_less_than_two_megabytes():
     found = [it for text in texts for it in re.findall(r"<div class=.{2}wmr-still.*", text)]
     assert len(found) > 50  # each twice: for a page, and for the panel's own program
     assert sum(map(len, found)) < 2e6
-
-
-def test_each_panel_that_the_book_offers_has_a_picture_and_no_other_is_kept():
-    wanted = {stills.digest(*it) for it in (*tool.offered(), *tool.stored())}
-    assert {path.stem for path in stills.FOLDER.glob("*.html")} == wanted
 
 
 def test_what_a_panel_shows_decides_about_its_picture_but_the_last_digits_do_not():

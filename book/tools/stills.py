@@ -46,17 +46,20 @@ SETTLED = """() => document.querySelector('.wmr:not([data-moving])')
     && !document.querySelector('.wmr-map:not([hidden]):not([data-finished=true])')"""
 ALT = """() => [...document.querySelectorAll('.wmr canvas')].filter(it => it.checkVisibility())
     .map(it => it.getAttribute('aria-label')).filter(Boolean).join(' ')"""
-# The sentences and questions in sight, with the numbers that can be typed.
+# The sentences and questions in sight, with the numbers that can be typed, and the answers.
 WORDS = """() => {
-    const kinds = '.live-question, .live-options label, .live-sentence, .stage-words, '
-        + '.front-words, .wmr-status';
+    const kinds = '.live-question, .live-answers, .live-sentence, .stage-words, .front-words, '
+        + '.wmr-status';
     const seen = it => it.checkVisibility({ opacityProperty: true, visibilityProperty: true });
-    const words = it => it.nodeType === 3 ? it.data : it.matches('select')
-        ? it.selectedOptions[0].text : it.value && !it.matches('[type=radio], button')
-        ? it.value : [...it.childNodes].map(words).join('');
-    return [...document.querySelectorAll(kinds)].filter(seen).map(words)
-        .map(it => it.replace(/\\s+/g, ' ').trim()).filter(Boolean)
-        .map(it => /[.?!:]$/.test(it) ? it : `${it};`).join(' ').replace(/;$/, '.');
+    const chips = it => [...it.querySelectorAll('button:not(.live-quiet)')]
+        .map(chip => chip.textContent);
+    const words = it => it.nodeType === 3 ? it.data : it.matches('button') ? ''
+        : it.matches('select') ? it.selectedOptions[0].text : it.value
+        ?? [...it.childNodes].map(words).join('');
+    const sentence = it => `${words(it)} ${chips(it).length > 1 ? chips(it).join(' / ') : ''}`
+        .replace(/\\s+/g, ' ').trim();
+    return [...document.querySelectorAll(kinds)].filter(seen).map(sentence).filter(Boolean)
+        .map(it => /[.?!]$/.test(it) ? it : `${it}.`).join(' ');
 }"""
 
 Shown = tuple[str, dict[str, Any], dict[str, Any]]  # a panel's program, state and setup

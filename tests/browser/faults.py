@@ -53,7 +53,7 @@ THIN = """() => {
         seen.add(token.className);
     }
     document.querySelectorAll('pre').forEach(it => it.normalize());
-    document.querySelectorAll('mjx-container').forEach(it => it.remove());
+    document.querySelectorAll('mjx-container').forEach(it => it.replaceWith('formula'));
 }"""
 ASK = """([root, only]) => axe.run(root,
     {resultTypes: ['violations'], preload: false, ...only}).then(
