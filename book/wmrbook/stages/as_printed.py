@@ -8,7 +8,7 @@ from wmrlib import paper, simulate
 ROBOTS = {"blue": "corrected", "pink": "printed"}
 
 
-def as_printed(scene: str = "whole") -> Stage:
+def as_printed(scene: str = "near") -> Stage:
     """Return the race of the law as printed and as derived, as one of its scenes."""
     start, goal, gains, _ = paper.outdoor()
     more = 10 * gains.h
@@ -26,11 +26,12 @@ def as_printed(scene: str = "whole") -> Stage:
     ends = "Blue {blue}, pink {pink}."
     seen = "only pink ends the same as before: its *h* does nothing. " + ends
     scenes = {
-        "whole": Scene(
-            "Two formulas for the turning rate, and one is a misprint. Move *h*, which should bend "
-            "the path: can you see which? " + ends
+        "near": Scene(
+            "Two formulas for the turning rate, and one is a misprint. Move *h*, by which the "
+            "final heading should count: can you see which? " + ends,
+            look="near",
         ),
-        "near": Scene("The last metre. " + ends, look="near"),
+        "whole": Scene("The whole way. " + ends),
         "ask": Scene(
             ends,
             look="near",
