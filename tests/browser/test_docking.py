@@ -1,0 +1,84 @@
+"""A chapter opens with its stage, which stays beside the text where the window is wide enough."""
+
+from __future__ import annotations
+
+import json
+
+import nbformat
+import pytest
+
+pytest.importorskip("sphinx", reason="a page is made by Sphinx")
+from live import chapters
+
+DESK, TELEPHONE = {"width": 1366, "height": 768}, {"width": 390, "height": 844}
+CHAPTERS = {path.stem: nbformat.read(path, as_version=4) for path in chapters()}
+BOX = "it => { const { left, top, right, bottom } = it.getBoundingClientRect();" + (
+    " return { left, top, right, bottom }; }"
+)
+SLIDERS = """() => [...document.querySelectorAll('.wmr.stage')].filter(it => it.offsetWidth)
+    .map(it => [...it.querySelectorAll('input[type=range]')].map(it => it.offsetWidth))"""
+# Scrolls to each section, and returns which scenes the stage then shows.
+READ = """async () => {
+    const shown = [], frame = () => new Promise(done => requestAnimationFrame(done));
+    for (const section of document.querySelectorAll('section[class*="stage-"]')) {
+        section.scrollIntoView({ behavior: 'instant' });
+        for (let k = 0; k < 6; k += 1) await frame();
+        shown.push(document.querySelector('.docked-stage .wmr.stage').dataset.scene);
+    }
+    return shown;
+}"""
+
+
+def scenes(notebook) -> list[str]:
+    """The scenes that the sections of a chapter name, in order."""
+    return [cell.metadata["stage"] for cell in notebook.cells if "stage" in cell.metadata]
+
+
+@pytest.mark.parametrize("name", CHAPTERS)
+def test_a_section_names_a_scene_that_its_chapters_stage_has(name):
+    (stored,) = CHAPTERS[name].metadata["widgets"].values()
+    setups = [it["state"].get("setup", {}) for it in stored["state"].values()]
+    known = [{scene["name"] for scene in it["scenes"]} for it in setups if "scenes" in it]
+    assert known, "no stage"
+    assert set(scenes(CHAPTERS[name])) <= known[0]
+
+
+@pytest.mark.slow
+def test_every_chapter_opens_with_its_stage_on_the_first_screen(opened, browser_page):
+    browser_page.set_viewport_size(DESK)
+    for name in CHAPTERS:
+        page = opened(f"notebooks/{name}.html")
+        stage = page.locator(".wmr.stage").first
+        box = stage.locator("canvas").evaluate(BOX)
+        assert 0 < box["top"] < 300, name
+        assert box["bottom"] - box["top"] >= 300, name
+        assert min(box["bottom"], DESK["height"]) - box["top"] >= 300, name
+        assert stage.locator(".stage-words[data-on=true]").inner_text().strip(), name
+        assert all(width >= 240 for row in page.evaluate(SLIDERS) for width in row), name
+
+
+def test_beside_the_text_the_stage_follows_the_reader(opened, browser_page):
+    browser_page.set_viewport_size(DESK)
+    (name, notebook), *_ = CHAPTERS.items()
+    page = opened(f"notebooks/{name}.html")
+    page.wait_for_selector("html.docked")
+    stage, text = page.locator(".docked-stage .wmr.stage"), page.locator(".bd-article section > p").first
+    box = stage.evaluate(BOX)
+    assert box["bottom"] <= DESK["height"], "the stage is higher than the window"
+    assert box["right"] <= DESK["width"], "the stage is wider than the window"
+    assert text.evaluate(BOX)["right"] <= box["left"], "the stage lies on the text"
+    named = scenes(notebook)
+    assert page.evaluate(READ) == named, json.dumps(named)
+    assert stage.evaluate(BOX) == box, "it stays where it was"
+    shown = [it for it in page.locator(".wmr.stage").all() if it.is_visible()]
+    assert len(shown) == 1, "where it is docked it does not return"
+
+    page.set_viewport_size(TELEPHONE)
+    page.wait_for_selector("html:not(.docked)")
+    shown = [it for it in page.locator(".wmr.stage").all() if it.is_visible()]
+    assert len(shown) > 1, "where it is not docked it returns"
+    widths = page.evaluate(SLIDERS)
+    assert all(width >= 200 for row in widths for width in row), widths
+    page.evaluate("scrollTo({ top: 0, behavior: 'instant' })")
+    box = page.locator(".wmr.stage").first.evaluate(BOX)
+    assert box["bottom"] - box["top"] <= TELEPHONE["height"] - 56, "picture and sliders on a screen"
