@@ -309,10 +309,7 @@ def window(values, results, data) -> None:
     gains, start = wmr.Gains(1.0, values["kappa"], values["h"], 1.0), pose(data["start"])
     options = {"dt": 0.02, "duration": 90.0, "arrival_radius": 1e-6}
     same_run(results["run"], start, wmr.Pose(0, 0, 0), gains, **options)
-    modes = wmr.modes(gains)
-    theirs = np.sort_complex([complex(*pole) for pole in results["poles"]])
-    assert np.abs(theirs - np.sort_complex(modes.poles[1:])).max() < 1e-6
-    assert results["inside"] == (modes.slower < 1)
+    assert results["inside"] == (wmr.modes(gains).slower < 1)
     other = wmr.Gains(0.5, 3.0 * values["kappa"], values["h"], 6.0)  # in metres and seconds
     start, options = wmr.Pose(2 * start.x, 2 * start.y, start.heading), {"method": "continuous"}
     run = wmr.simulate(start, wmr.Pose(0, 0, 0), other, dt=0.005, arrival_radius=2e-6, **options)

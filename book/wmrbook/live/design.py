@@ -68,7 +68,8 @@ def window() -> Live:
     return Live(
         "window",
         "With {kappa} and {h} the gains are {place}: near the goal the heading settles {compared} "
-        "than the distance. From *r* = 0.1 on it is up to {late} off, from 0.01 on up to {later}.",
+        "than the distance. Over the last tenth of 1/*k_rho*, here of 1 m, it is up to {late} off, "
+        "over the last hundredth up to {later}.",
         {
             "kappa": Knob(0.125, 0.05, 6.0, 0.05, "kappa, k_alpha/(v_max k_rho)", "", "kappa"),
             "h": Knob(0.3, 0.05, 6.0, 0.05, "weight of the final heading, h", "", "h"),
