@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib.checks import Real, checked
+from wmrlib.checks import Real, checked, kind_of, refusal
 from wmrlib.compilation import compiled, formula
 from wmrlib.elementary import sincos, wrap
 from wmrlib.records import record
@@ -205,6 +205,16 @@ def measured_pose(reception, record, k, goal, receiver):
     if reception.compass != 0.0:
         heading = wrap(heading + reception.compass)
     return x, y, heading
+
+
+def key_of(seed: int) -> tuple[int, int]:
+    """The key to the random numbers of a seed; ValueError if it is none."""
+    whole = isinstance(seed, int | np.integer) and not isinstance(seed, bool)
+    if not whole or not 0 <= seed < 2**64:
+        remark = "" if whole else f", not {kind_of(seed)}"
+        raise refusal("seed", seed, "a whole number from 0 to 2**64 - 1", remark)
+    high, low = divmod(int(seed), 2**32)
+    return low, high
 
 
 def in_samples(fields: np.ndarray, dt: float, samples: int) -> np.ndarray:

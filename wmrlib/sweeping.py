@@ -23,7 +23,6 @@ from wmrlib.checks import (
     as_array,
     choice,
     instance,
-    kind_of,
     real,
     refusal,
     same_shape,
@@ -44,7 +43,7 @@ from wmrlib.loops import (
     held_runs,
     held_runs_by,
 )
-from wmrlib.receiver import Receiver, in_samples
+from wmrlib.receiver import Receiver, in_samples, key_of
 from wmrlib.runs import (
     ARRIVED,
     METHODS,
@@ -172,10 +171,7 @@ def sweep(
     radius = scalar("arrival_radius", arrival_radius, low=0.0)
     if receiver and method == "continuous":
         raise refusal("method", method, "'arc' or 'euler'", ": a receiver is read at samples")
-    whole = isinstance(seed, int | np.integer) and not isinstance(seed, bool)
-    if not whole or not 0 <= seed < 2**64:
-        remark = "" if whole else f", not {kind_of(seed)}"
-        raise refusal("seed", seed, "a whole number from 0 to 2**64 - 1", remark)
+    numbers = key_of(seed)
     end = checked_turn(last_turn, dt, method, radius)
     hysteresis = checked_hysteresis(hysteresis, method)
     ideal = bool(np.all(are_ideal(robot)))
@@ -198,7 +194,7 @@ def sweep(
     alike = {*map(type, robot)} == {float} and not robot.min_speed
     plain = ideal and alike and end == NO_TURN and not hysteresis
     side_by_side = plain and not receiver and not trajectories and not own
-    key = divmod(int(seed), 2**32)[::-1] if receiver else None
+    key = numbers if receiver else None
     law_in_loop = own_law(own) if own else None
     setting = sampling, samples, robot, end, key, side_by_side, law_in_loop
     task = _Task(method == "continuous", *setting)

@@ -9,17 +9,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from wmrlib.body import LastTurn, Wheels, checked_wheels, hurry, sound_turn, turn_rate
+from wmrlib.body import LastTurn, Wheels, checked_wheels, sound_turn
 from wmrlib.checks import choice, instance, refusal, scalar
+from wmrlib.compilation import formula
 from wmrlib.elementary import wrap
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
-from wmrlib.laws import LAWS, saturation_scale
-from wmrlib.motion import polar_from_pose, wheel_speeds
+from wmrlib.laws import POSE_LAWS
+from wmrlib.motion import polar_from_pose
 from wmrrobot import monitor
 from wmrrobot.monitor import (
     BROKEN,
-    DRIVE,
     FROZEN,
     JUMPED,
     LATE,
@@ -31,46 +31,64 @@ from wmrrobot.monitor import (
     Rules,
     Seen,
 )
+from wmrrobot.steering import commanded
 
 
+@formula
 def placed(m: Memory, rules: Rules) -> int:
     """Whether there were enough good fixes to know the pose."""
     return m.good >= rules.settle or m.driven > 0.0
 
 
+@formula
 def outside(m: Memory, rules: Rules) -> int:
     """Whether the robot is outside its fence."""
     return placed(m, rules) and m.outside != 0
 
 
+@formula
 def too_far(m: Memory, rules: Rules) -> int:
     """Whether the goal is too far away to be intended."""
     return placed(m, rules) and m.rho > rules.farthest
 
 
+@formula
 def stuck(m: Memory) -> int:
     """Whether a wheel, or its encoder, stands although it was commanded to roll."""
     return m.left.stuck != 0 or m.right.stuck != 0
 
 
+@formula
 def loose(m: Memory) -> int:
     """Whether a wheel rolls although it was not commanded to."""
     return m.left.loose != 0 or m.right.loose != 0
 
 
+@formula
 def turned(m: Memory, rules: Rules) -> int:
     """Whether several fixes in a row have another heading than the wheels."""
     return m.turned >= rules.settle
 
 
+@formula
 def silent(m: Memory, rules: Rules) -> int:
     """Whether the last usable fix is too long ago."""
     return m.silence > rules.patience
 
 
+@formula
 def silent_by(m: Memory, rules: Rules, reason: int) -> int:
     """Whether it is, and the last fix was refused for this reason."""
     return silent(m, rules) and m.refused == reason
+
+
+@formula
+def aim(m: Memory, seen: Seen, rho: float, alpha: float, theta: float, end: LastTurn) -> None:
+    """Note where the goal is, and how long the last turn has been within its tolerance."""
+    m.rho, m.remaining_turn = rho, wrap(alpha - theta)
+    faces = m.state == TURN and abs(m.remaining_turn) <= end.tolerance
+    m.facing = m.facing + 1 if faces else 0
+    m.faced = m.faced + seen.seconds if faces else 0.0
 
 
 class Row(NamedTuple):
@@ -165,7 +183,7 @@ class Drive:
         self.gains = Gains(*(scalar(f"gains.{name}", value) for name, value in fields.items()))
         self.wheels = checked_wheels(instance("wheels", wheels, Wheels))
         self.rules = instance("rules", rules, Rules)
-        self.law = choice("law", law, [name for name, row in LAWS.items() if row.gains is Gains])
+        self.law = choice("law", law, POSE_LAWS)
         self.end = LastTurn(tolerance=0.0)
         if last_turn is not None:
             self.end = sound_turn(last_turn, self.rules.longest_period)
@@ -196,21 +214,12 @@ class Drive:
 
     def step(self, seen: Seen) -> tuple[float, float]:
         """The speeds of the left and the right wheel [m/s] for the next period."""
-        m, end, v, omega = self.memory, self.end, 0.0, 0.0
+        m, end = self.memory, self.end
         monitor.observe(m, seen, self.rules, self.wheels)
-        state = polar_from_pose(m.pose.x, m.pose.y, m.pose.heading, *self.goal)
-        m.rho, m.remaining_turn = state[0], wrap(state[1] - state[2])
-        faces = m.state == TURN and abs(m.remaining_turn) <= end.tolerance
-        m.facing, m.faced = (m.facing + 1, m.faced + seen.seconds) if faces else (0, 0.0)
+        polar = polar_from_pose(m.pose.x, m.pose.y, m.pose.heading, *self.goal)
+        aim(m, seen, *polar, end)
         self._decide(seen)
-        if m.state == DRIVE:
-            v_over_rho, omega = LAWS[self.law].formula(*state, self.gains)
-            more = hurry(v_over_rho * m.rho, state[1], self.wheels.min_speed)
-            v, omega = v_over_rho * m.rho * more, omega * more
-        elif m.state == TURN and abs(m.remaining_turn) > end.tolerance:
-            omega = turn_rate(m.remaining_turn, end.gain, end.min_rate, end.max_rate)
-        scale = saturation_scale(v, omega, self.wheels)
-        speeds = wheel_speeds(v * scale, omega * scale, self.wheels.track_width)
+        speeds = commanded(m, *polar, self.gains, POSE_LAWS[self.law], self.wheels, end)
         m.left.commanded, m.right.commanded = speeds
         return speeds
 

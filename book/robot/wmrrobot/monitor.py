@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from wmrlib.body import Wheels
 from wmrlib.checks import checked
+from wmrlib.compilation import formula
 from wmrlib.elementary import distance, wrap
 from wmrrobot.odometry import Past, Place, carry, copy_place, look_back, remember, shift
 
@@ -163,6 +164,7 @@ class Memory:
     faced: float = 0.0  # s of these
 
 
+@formula
 def rank(quality: int) -> int:
     """The order of NMEA's qualities: RTK float, 5, is worse than RTK fixed, 4; 0 is no fix."""
     if quality < 1 or quality > 5:
@@ -170,6 +172,7 @@ def rank(quality: int) -> int:
     return quality if quality < 4 else 9 - quality
 
 
+@formula
 def bring_up(m: Memory, seen: Seen) -> None:
     """Carry a fix from the antenna to the middle, and on by the odometry since it was measured."""
     look_back(m.past, seen.age)
@@ -178,6 +181,7 @@ def bring_up(m: Memory, seen: Seen) -> None:
     carry(m.fix, m.past.since.ahead, m.past.since.turn)
 
 
+@formula
 def watch_wheel(wheel: Wheel, rolled: float, dt: float, rules: Rules, wheels: Wheels) -> None:
     """Compare the distance that a wheel rolled with its commands."""
     commanded = 0.0 if abs(wheel.commanded) < wheels.dead_band else wheel.commanded
@@ -194,6 +198,7 @@ def watch_wheel(wheel: Wheel, rolled: float, dt: float, rules: Rules, wheels: Wh
         wheel.due, wheel.rolled = 0.0, 0.0
 
 
+@formula
 def refusal_of(m: Memory, seen: Seen, rules: Rules) -> int:
     """The reason why a fix cannot be used, or NONE; the fix is carried on to now."""
     if not (abs(seen.x) + abs(seen.y) + abs(seen.heading) < 1e9 and abs(seen.age) < 1e9):
@@ -218,6 +223,7 @@ def refusal_of(m: Memory, seen: Seen, rules: Rules) -> int:
     return NONE
 
 
+@formula
 def compare(m: Memory, rules: Rules) -> None:
     """Compare a leg by fixes with the same leg by the wheels, and begin the next leg."""
     east, north = m.leg.x - m.begin.x, m.leg.y - m.begin.y
@@ -234,6 +240,7 @@ def compare(m: Memory, rules: Rules) -> None:
         m.length, m.turning = 0.0, 0.0
 
 
+@formula
 def take_fix(m: Memory, seen: Seen, rules: Rules) -> None:
     """Use a fix or note why not; before the first drive a jump is a new beginning."""
     if seen.x != m.x or seen.y != m.y:
@@ -251,6 +258,7 @@ def take_fix(m: Memory, seen: Seen, rules: Rules) -> None:
         compare(m, rules)
 
 
+@formula
 def observe(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
     """Check the readings of a period, carry the pose on, and use a new fix."""
     sound = abs(seen.left) + abs(seen.right) < 1e9  # else an encoder reading is no number

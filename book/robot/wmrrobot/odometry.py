@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import cos, sin
 
+from wmrlib.compilation import formula
 from wmrlib.elementary import sinc, wrap
 
 PAST = 8  # stretches in the ring buffer
@@ -40,6 +41,7 @@ class Past:
     since: Stretch = field(default_factory=Stretch)
 
 
+@formula
 def carry(place: Place, ahead: float, turn: float) -> None:
     """Move a pose along the arc that the wheels rolled."""
     chord = ahead * sinc(0.5 * turn)
@@ -48,6 +50,7 @@ def carry(place: Place, ahead: float, turn: float) -> None:
     place.heading = wrap(place.heading + turn)
 
 
+@formula
 def shift(place: Place, ahead: float, left: float) -> None:
     """Move a pose ahead and to the left, without a turn."""
     east, north = cos(place.heading), sin(place.heading)
@@ -55,11 +58,13 @@ def shift(place: Place, ahead: float, left: float) -> None:
     place.y += ahead * north + left * east
 
 
+@formula
 def copy_place(place: Place, other: Place) -> None:
     """Copy the other pose into the first."""
     place.x, place.y, place.heading = other.x, other.y, other.heading
 
 
+@formula
 def remember(past: Past, ahead: float, turn: float, dt: float, longest: float) -> None:
     """Add a period to the history, which reaches back a little over `longest` s."""
     if past.stretches[past.newest].seconds * (PAST - 2) >= longest:
@@ -72,6 +77,7 @@ def remember(past: Past, ahead: float, turn: float, dt: float, longest: float) -
     past.stretches[past.newest].turn += turn
 
 
+@formula
 def lengthen(since: Stretch, stretch: Stretch, age: float) -> None:
     """Add the next older stretch to a sum, or its share up to an age [s]."""
     share = min((age - since.seconds) / max(stretch.seconds, 1e-9), 1.0)
@@ -80,6 +86,7 @@ def lengthen(since: Stretch, stretch: Stretch, age: float) -> None:
     since.turn += share * stretch.turn
 
 
+@formula
 def look_back(past: Past, age: float) -> None:
     """Add up the distance and the turn of the last `age` s."""
     past.since.seconds, past.since.ahead, past.since.turn = 0.0, 0.0, 0.0

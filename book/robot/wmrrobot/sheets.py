@@ -12,8 +12,8 @@ import numpy as np
 
 import wmrlib as wmr
 from wmrlib.checks import book_extra, instance, scalar
-from wmrlib.receiver import normals
 from wmrrobot.monitor import Rules
+from wmrrobot.trials import Plan, Sensors, ends_of
 
 with book_extra("wmrrobot.sheets"):
     from scipy.special import bdtr
@@ -28,6 +28,7 @@ COARSE = 0.35  # rad: a last turn that is coarser is none
 MARGIN = 0.2  # s: a fix may be so much older than usual
 STEADY = 4.0  # sigmas: two fixes of a sound receiver differ by less
 SCATTER = 0.02  # rad: the headings of two fixes differ by so much, whatever the compass error
+LAG = 0.1  # s that the wheels of the certificate's robot lag
 SWING = 2.0  # times a wrong compass moves the place on the antenna's arm: a last turn turns that
 CLOSE = 0.1  # m: no jump that is smaller is refused
 LEG = 1.0  # m: over less, a course says little; over more, a soft tyre turns the wheels' heading
@@ -251,34 +252,27 @@ def certificate(
     """
     settings = sheet(robot)
     aside = 2 * math.pi * spread * (np.arange(runs) * GOLDEN % 1.0 - 0.5)
-    sigma, late = np.full(runs, robot.sigma), robot.delay
-    end = wmr.sweep(
-        wmr.Pose(0.0, 0.0, math.atan2(settings.y, settings.x) + aside),
-        wmr.Pose(settings.x, settings.y, settings.heading),
-        settings.gains,
-        method="arc",
-        dt=robot.period,
-        duration=settings.duration,
-        arrival_radius=settings.radius,
-        wheels=settings.wheels,
-        last_turn=settings.turn,
-        receiver=wmr.Receiver(sigma, robot.memory, robot.fix_period, late, late),
-        seed=seed,
-        progress=False,
+    goal = wmr.Pose(settings.x, settings.y, settings.heading)
+    arm, late = (robot.antenna_ahead, robot.antenna_left), robot.delay
+    receiver = wmr.Receiver(robot.sigma, robot.memory, robot.fix_period, late)
+    end = ends_of(
+        math.atan2(settings.y, settings.x) + aside,
+        Plan(goal, settings.gains, settings.wheels, settings.turn, settings.rules),
+        LAG,
+        Sensors(robot.period, SCATTER, *arm, settings.rules.least, robot.sigma),
+        receiver._replace(compass=math.radians(robot.compass)),
+        settings.duration,
+        seed,
     )
-    key = seed % 2**32, seed // 2**32
-    compass = np.array([normals(run, 0, COMPASS, key)[0] for run in range(runs)])
-    off = math.radians(robot.compass) * compass
-    turned = wmr.wrap_angle(end.heading_error + off)
-    far = end.distance + 2 * arm_of(robot) * abs(np.sin(off / 2))  # at most
-    place, heading = (np.where(end.arrived, errors, np.inf) for errors in (far, abs(turned)))
+    far, turned = np.hypot(end.x - goal.x, end.y - goal.y), wmr.wrap_angle(end.heading - goal.heading)
+    place, heading = (np.where(end.parked, errors, np.inf) for errors in (far, abs(turned)))
     least = sure(runs)
-    place_rms, heading_rms = (_rms(errors[end.arrived]) for errors in (place, heading))
+    place_rms, heading_rms = (_rms(errors[end.parked]) for errors in (place, heading))
     bounds = (
         np.sort(errors)[least - 1] if least <= runs else np.inf for errors in (place, heading)
     )
-    time = np.median(np.where(end.arrived, end.time, np.inf))
-    parked = int(end.arrived.sum())
+    time = np.median(np.where(end.parked, end.time, np.inf))
+    parked = int(end.parked.sum())
     return Certificate(parked, place_rms, heading_rms, *map(float, (*bounds, time)), place, heading)
 
 

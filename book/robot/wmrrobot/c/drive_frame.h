@@ -58,11 +58,7 @@ static inline wmr_wheels wmr_drive(wmr_memory *m, const wmr_seen *seen, const wm
   wmr_wheels wheels;
   wmr_observe(m, seen, &plan->rules, &plan->motors);
   error = wmr_polar_error(m->pose, plan->goal);
-  m->rho = error.rho, m->remaining_turn = wmr_wrap(error.alpha - error.theta);
-  if (m->state == WMR_TURN && WMR_F(fabs)(m->remaining_turn) <= end->tolerance)
-    m->facing += 1, m->faced += seen->seconds;
-  else
-    m->facing = 0, m->faced = WMR_C(0.0);
+  wmr_aim(m, seen, error.rho, error.alpha, error.theta, end);
   wmr_decide(m, seen, &plan->rules, end);
   if (m->state == WMR_DRIVE) {
     twist = WMR_DRIVE_LAW(error, plan->gains);

@@ -356,6 +356,17 @@ static inline int wmr_silent_by(wmr_memory *m, const wmr_rules *rules, int reaso
   return wmr_silent(m, rules) && m->refused == reason;
 }
 
+/* Note where the goal is, and how long the last turn has been within its tolerance. */
+static inline void wmr_aim(wmr_memory *m, const wmr_seen *seen, WMR_REAL rho,
+    WMR_REAL alpha, WMR_REAL theta, const wmr_last_turn *end) {
+  m->rho = rho;
+  m->remaining_turn = wmr_wrap(alpha - theta);
+  const int faces = m->state == WMR_TURN && WMR_F(fabs)(m->remaining_turn) <=
+      end->tolerance;
+  m->facing = faces ? (m->facing + 1) : 0;
+  m->faced = faces ? (m->faced + seen->seconds) : WMR_C(0.0);
+}
+
 
 /* The first row of the table that fits. */
 static inline void wmr_decide(wmr_memory *m, const wmr_seen *seen, const wmr_rules *rules,
@@ -475,11 +486,7 @@ static inline wmr_wheels wmr_drive(wmr_memory *m, const wmr_seen *seen, const wm
   wmr_wheels wheels;
   wmr_observe(m, seen, &plan->rules, &plan->motors);
   error = wmr_polar_error(m->pose, plan->goal);
-  m->rho = error.rho, m->remaining_turn = wmr_wrap(error.alpha - error.theta);
-  if (m->state == WMR_TURN && WMR_F(fabs)(m->remaining_turn) <= end->tolerance)
-    m->facing += 1, m->faced += seen->seconds;
-  else
-    m->facing = 0, m->faced = WMR_C(0.0);
+  wmr_aim(m, seen, error.rho, error.alpha, error.theta, end);
   wmr_decide(m, seen, &plan->rules, end);
   if (m->state == WMR_DRIVE) {
     twist = WMR_DRIVE_LAW(error, plan->gains);
