@@ -92,7 +92,7 @@ def normals(run, sample, purpose, key):
 
 # The purposes of random numbers, each of which has numbers of its own in every sample. They are
 # floats, because numba would compile `normals` anew for each whole number in a call.
-_ERROR, _SIGHT, _BIAS, _COMPASS, _DROPOUT, _JUMP = map(float, range(6))
+_ERROR, _SIGHT, _BIAS, COMPASS, _DROPOUT, _JUMP = map(float, range(6))
 
 
 class SampledReceiver(NamedTuple):
@@ -164,7 +164,7 @@ def received(before, record, k, receiver):
     if first:
         east, north = normals(run, int(fix), _BIAS, key)
         bias_east, bias_north = receiver.bias * east, receiver.bias * north
-        compass = receiver.compass * normals(run, int(fix), _COMPASS, key)[0]
+        compass = receiver.compass * normals(run, int(fix), COMPASS, key)[0]
     outage_end = before.outage_end
     if not first and receiver.dropouts > 0.0:
         expected = receiver.period * receiver.dropouts

@@ -15,6 +15,7 @@ from wmrbook import face, live, stages
 from wmrbook.panel import Explorer, Front, MyRobot
 from wmrbook.panel.kit import KIT, programs
 from wmrlib import symbolic
+from wmrrobot import printing
 
 MODULES = Path(__file__).parents[1] / "node_modules"
 # The kit is a function, which the worker of a map is made of too: a page from the disk may have no
@@ -41,6 +42,7 @@ def printed() -> dict[str, str]:
     contracts = f"{head}export const CONTRACTS = {{\n{rows}}};\n"
     return {
         "model.js": symbolic.javascript(),
+        "drive.js": printing.javascript_drive(),
         "contracts.js": contracts,
         "face.js": face.javascript(),
     }

@@ -36,7 +36,6 @@ SUREST = 0.1  # degrees: a filter is told of no better compass
 FAR = 1000.0  # m
 RUNS, SEED, SHARE = 400, 14, 0.95
 GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0  # spreads the first headings evenly
-COMPASS = 2  # the stream of random numbers that compasses err by
 
 
 class Robot(NamedTuple):
@@ -253,14 +252,16 @@ def certificate(
     settings = sheet(robot)
     aside = 2 * math.pi * spread * (np.arange(runs) * GOLDEN % 1.0 - 0.5)
     goal = wmr.Pose(settings.x, settings.y, settings.heading)
-    arm, late = (robot.antenna_ahead, robot.antenna_left), robot.delay
-    receiver = wmr.Receiver(robot.sigma, robot.memory, robot.fix_period, late)
+    arm, dt = (robot.antenna_ahead, robot.antenna_left), robot.period
+    every, late = (dt * math.ceil(time / dt - 1e-9) for time in (robot.fix_period, robot.delay))
+    compass = math.radians(robot.compass)
+    receiver = wmr.Receiver(robot.sigma, robot.memory, every, late, compass=compass)
     end = ends_of(
         math.atan2(settings.y, settings.x) + aside,
         Plan(goal, settings.gains, settings.wheels, settings.turn, settings.rules),
         LAG,
-        Sensors(robot.period, SCATTER, *arm, settings.rules.least, robot.sigma),
-        receiver._replace(compass=math.radians(robot.compass)),
+        Sensors(dt, SCATTER, *arm, settings.rules.least, robot.sigma),
+        receiver,
         settings.duration,
         seed,
     )

@@ -6,8 +6,8 @@ It computes in the page, by `kit/sheet.js`; `wmrrobot.sheets` is its twin.
 from __future__ import annotations
 
 from wmrbook.panel.kit import Panel
-from wmrlib import EARTH_RADIUS_M, LastTurn, gains_for, longest_step
-from wmrrobot import Rules, exports, sheets
+from wmrlib import EARTH_RADIUS_M, LastTurn, gains_for, longest_step, receiver
+from wmrrobot import Rules, exports, sheets, trials
 from wmrrobot.sheets import BOUNDS, RECEIVERS, Robot
 
 # What a reader fills in: the title of each group, and its fields, by their names for readers.
@@ -46,7 +46,7 @@ QUALITIES = (
     "RTK float or fixed",
 )
 NUMBERS = ("spare", "brake", "nearest", "moves", "coarse", "margin", "steady", "close", "leg")
-NUMBERS += ("scatter", "swing", "surest", "far", "golden", "compass", "runs", "seed", "share")
+NUMBERS += ("scatter", "lag", "swing", "surest", "far", "golden", "runs", "seed", "share")
 
 
 class MyRobot(Panel):
@@ -61,6 +61,7 @@ class MyRobot(Panel):
             "usual": Rules()._asdict(),
             "earth": EARTH_RADIUS_M,
             "fresh": sheets.NEW,
+            "streams": {"compass": receiver.COMPASS, "scatter": trials.SCATTER},
         }
         rules |= {name: getattr(sheets, name.upper()) for name in NUMBERS}
         groups = [[title, [*fields.items()]] for title, fields in GROUPS.items()]

@@ -1,7 +1,8 @@
 """The drive and the filter in C, printed by wmrlib's printers.
 
 ``python -m wmrrobot`` prints the drive into ``wmr_drive.h``, `filter_formulas` into
-``wmr_filter.h`` and `jacobians` into ``wmrrobot/jacobians.py``.
+``wmr_filter.h`` and `jacobians` into ``wmrrobot/jacobians.py``. `javascript_drive` is the drive for
+a page of the book.
 """
 
 from wmrrobot.printing.c_drive import C_DRIVE, c_drive  # noqa: F401
@@ -14,6 +15,7 @@ from wmrrobot.printing.formulas import (  # noqa: F401
     share,
     wheel_scale,
 )
+from wmrrobot.printing.javascript import javascript_drive  # noqa: F401
 from wmrrobot.printing.python import PYTHON_MODULE, python_module  # noqa: F401
 
 C_EXAMPLE = C_DRIVE.with_name("example.c")

@@ -19,7 +19,7 @@ _KINDS = {kind: f"wmr_{kind.__name__.lower()}" for kind in _STRUCTS}
 _KINDS |= {LastTurn: "wmr_last_turn", Wheels: "wmr_motors", odometry.Place: "wmr_pose"}
 _KINDS |= {float: "WMR_REAL", int: "int", type(None): "void"}
 _KINDS[list[odometry.Stretch]] = "wmr_stretch"
-_OWN = {
+OWN = {
     name: value
     for module in (odometry, monitor, drive)
     for name, value in vars(module).items()
@@ -32,6 +32,7 @@ _SIGNS |= {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==",
 _SIGNS |= {ast.Not: "!", ast.USub: "-", ast.Mod: "%"}
 _TIGHT = ast.Mult | ast.Div
 _WHOLE = ast.Name | ast.Constant | ast.Attribute | ast.Subscript | ast.Call  # needs no brackets
+TRUTH = ast.Compare | ast.BoolOp  # true or false
 _SHORT = {"s": "seen", "r": "rules", "e": "end"}  # in a condition of the table
 
 
@@ -40,11 +41,21 @@ def code_name(words: str) -> str:
     return "WMR_" + (words or "fine").upper().replace(" ", "_")
 
 
-class _C(ast.NodeVisitor):
+class Code(ast.NodeVisitor):
     """One expression of Python as C; NotImplementedError where C has no counterpart."""
+
+    counter, signs = "int", _SIGNS
 
     def __init__(self, pointers: set[str]) -> None:
         self.pointers = pointers
+
+    def constant(self, value: ast.expr) -> str:
+        """The begin of a line that names a value for good."""
+        return f"const {'int' if isinstance(value, TRUTH) else 'WMR_REAL'}"
+
+    def stored(self, value: ast.expr) -> str:
+        """A value as a field has it."""
+        return self.visit(value)
 
     def generic_visit(self, node):
         raise NotImplementedError(f"{ast.unparse(node)} has no counterpart in C here")
@@ -69,19 +80,19 @@ class _C(ast.NodeVisitor):
                 isinstance(node.op, _TIGHT) and isinstance(getattr(inner, "op", None), _TIGHT)
             )
             sides.append(self._part(inner, ast.BinOp if same and binds else ()))
-        return f" {_SIGNS[type(node.op)]} ".join(sides)
+        return f" {self.signs[type(node.op)]} ".join(sides)
 
     def visit_BoolOp(self, node):
         parts = (self._part(n) if isinstance(n, ast.BoolOp) else self.visit(n) for n in node.values)
-        return f" {_SIGNS[type(node.op)]} ".join(parts)
+        return f" {self.signs[type(node.op)]} ".join(parts)
 
     def visit_UnaryOp(self, node):
-        return f"{_SIGNS[type(node.op)]}{self._part(node.operand)}"
+        return f"{self.signs[type(node.op)]}{self._part(node.operand)}"
 
     def visit_Compare(self, node):
         (sign,), (right,) = node.ops, node.comparators
         left, right = self._part(node.left, ast.BinOp), self._part(right, ast.BinOp)
-        return f"{left} {_SIGNS[type(sign)]} {right}"
+        return f"{left} {self.signs[type(sign)]} {right}"
 
     def visit_IfExp(self, node):
         test, body, other = map(self._part, (node.test, node.body, node.orelse))
@@ -89,7 +100,7 @@ class _C(ast.NodeVisitor):
 
     def visit_Call(self, node):
         name = node.func.id
-        kinds = get_type_hints(_OWN[name]).values() if name in _OWN else repeat(float)
+        kinds = get_type_hints(OWN[name]).values() if name in OWN else repeat(float)
         given = []
         for arg, kind in zip(node.args, kinds, strict=False):
             whole = kind in (float, int) or isinstance(arg, ast.Name)  # a name is a pointer
@@ -104,16 +115,17 @@ class _C(ast.NodeVisitor):
 
 def c_condition(condition: ast.Lambda) -> str:
     """A condition of the table as C."""
-    return _C({argument.arg for argument in condition.args.args}).visit(condition.body)
+    return Code({argument.arg for argument in condition.args.args}).visit(condition.body)
 
 
-def _conditions() -> list[ast.Lambda]:
+def conditions() -> list[ast.Lambda]:
     """Those of `drive.TABLE` in the order in which its source has them."""
     tree = ast.parse(inspect.getsource(drive))
     return [node for node in ast.walk(tree) if isinstance(node, ast.Lambda)]
 
 
-def _statement(node: ast.stmt, c: _C, indent: str) -> list[str]:
+def statement(node: ast.stmt, c: Code, indent: str) -> list[str]:
+    """The lines of a statement of Python."""
     inner = indent + "  "
     match node:
         case ast.Expr(value=ast.Call()):
@@ -124,20 +136,19 @@ def _statement(node: ast.stmt, c: _C, indent: str) -> list[str]:
             return [f"{indent}{c.visit(node.target)} {_SIGNS[type(op)]}= {c.visit(node.value)};"]
         case ast.Assign(targets=[ast.Tuple(elts=names)], value=ast.Tuple(elts=values)):
             single = [ast.Assign([name], value) for name, value in zip(names, values, strict=True)]
-            return [line for part in single for line in _statement(part, c, indent)]
+            return [line for part in single for line in statement(part, c, indent)]
         case ast.Assign(targets=[ast.Name(id=name)], value=value):
-            kind = "int" if isinstance(value, ast.Compare | ast.BoolOp) else "WMR_REAL"
-            return [f"{indent}const {kind} {name} = {c.visit(value)};"]
+            return [f"{indent}{c.constant(value)} {name} = {c.visit(value)};"]
         case ast.Assign(targets=[target], value=value):
-            return [f"{indent}{c.visit(target)} = {c.visit(value)};"]
+            return [f"{indent}{c.visit(target)} = {c.stored(value)};"]
         case ast.If():
-            body = [line for part in node.body for line in _statement(part, c, inner)]
-            other = [line for part in node.orelse for line in _statement(part, c, inner)]
+            body = [line for part in node.body for line in statement(part, c, inner)]
+            other = [line for part in node.orelse for line in statement(part, c, inner)]
             other = [f"{indent}}} else {{", *other] if other else []
             return [f"{indent}if ({c.visit(node.test)}) {{", *body, *other, f"{indent}}}"]
         case ast.For(target=ast.Name(id=k), iter=ast.Call(func=ast.Name(id="range"), args=[end])):
-            body = [line for part in node.body for line in _statement(part, c, inner)]
-            head = f"{indent}for (int {k} = 0; {k} < {c.visit(end)}; {k} += 1) {{"
+            body = [line for part in node.body for line in statement(part, c, inner)]
+            head = f"{indent}for ({c.counter} {k} = 0; {k} < {c.visit(end)}; {k} += 1) {{"
             return [head, *body, f"{indent}}}"]
     raise NotImplementedError(f"{ast.unparse(node)} has no counterpart in C here")
 
@@ -153,8 +164,8 @@ def _function(function) -> str:
         star = " " if name in plain else " *"
         const = "const " if issubclass(kind, tuple) else ""
         given.append(f"{const}{_KINDS[kind]}{star}{name}".replace(" ", "\xa0"))
-    c = _C(set(kinds) - plain)
-    lines = [line for statement in tree.body[1:] for line in _statement(statement, c, "  ")]
+    c = Code(set(kinds) - plain)
+    lines = [line for node in tree.body[1:] for line in statement(node, c, "  ")]
     head = f"static inline {back} wmr_{function.__name__}({', '.join(given)}) {{"
     return "\n".join([f"/* {inspect.getdoc(function)} */", *map(wrapped, [head, *lines]), "}\n"])
 
@@ -191,8 +202,8 @@ def c_drive() -> str:
         + f"\nenum {{ {code_name('past')} = {odometry.PAST} }};",
         "STRUCTURES": "\n".join(map(_structure, _STRUCTS)),
         "USUAL": " \\\n".join(wrapped(f"#define WMR_USUAL_RULES {{{usual}}}").splitlines()),
-        "FUNCTIONS": "\n".join(_function(words) for words in _OWN.values()),
-        "TABLE": "\n".join(map(_row, drive.TABLE, map(c_condition, _conditions()))),
+        "FUNCTIONS": "\n".join(_function(words) for words in OWN.values()),
+        "TABLE": "\n".join(map(_row, drive.TABLE, map(c_condition, conditions()))),
         "REASONS": ",\n".join(f'    "{reason}"' for reason in drive.REASONS),
     }
     return filled(

@@ -2,9 +2,12 @@
 // those of wmrrobot/sheets.py, which come with the panel as `rules`.
 
 import { DEGREES } from './style.js';
-import { arcStep, wrap } from './model.js';
-import { ARRIVED, notAllowed } from './setup.js';
-import { drive } from './simulate.js';
+import { DRIVE, PARKED, TURN, aim, decide, memory, observe } from './drive.js';
+import {
+  arcStep, correctedLaw, fastestWheel, hurry, polarFromPose, roll, saturationScale, turnRate, wrap,
+} from './model.js';
+import { atRest } from './simulate.js';
+import { notAllowed } from './setup.js';
 import { median } from './numbers.js';
 import { normals } from './random.js';
 
@@ -103,46 +106,86 @@ export function sheetOf(robot, rules) {
         farthest: Math.max(usual.farthest, 2 * distance) } };
 }
 
-function inSamples(seconds, dt) { // of two whole numbers as near, the even one, as numpy's rint
-  const most = Math.round(seconds / dt);
-  return most - seconds / dt === 0.5 && most % 2 ? most - 1 : most;
-}
-
-// What a receiver shows of a pose in sample k, as wmrlib's: wrong, held and late.
-function sightOf({ sigma, memory, fix_period, delay, period: dt }, run, seed) {
-  const period = Math.max(inSamples(fix_period, dt), 1), late = inSamples(delay, dt), past = [];
+// The sensors of a robot in a run: wrong and late, by fixes that are new in some of the samples.
+function sensorsOf(robot, { seed, streams, scatter }, run) {
+  const { sigma, memory: lasting, period: dt, antenna_ahead: ahead, antenna_left: left } = robot;
+  const [every, late] = [robot.fix_period, robot.delay]
+      .map((seconds) => Math.ceil(seconds / dt - 1e-9));
+  const period = Math.max(every, 1), past = [],
+      off = robot.compass / DEGREES * normals(run, 0, seed, streams.compass)[0];
+  const seen = { seconds: dt, left: 0, right: 0, battery: Infinity, goal_inside: 1, inside: 1,
+    fresh: 0, x: 0, y: 0, heading: 0, antenna_ahead: ahead, antenna_left: left,
+    quality: robot.quality, error: sigma, later: 0, age: 0 };
   let fix = -1, error = [0, 0];
-  return (k, pose) => {
+  return (k, pose, [rolledLeft, rolledRight]) => {
     past.push(pose);
     const now = Math.max(Math.floor(k / period) * period - late, 0);
-    if (sigma && now > fix) {
-      const age = fix < 0 ? Infinity : (now - fix) * dt / memory, keep = Math.exp(-age),
+    seen.left = rolledLeft;
+    seen.right = rolledRight;
+    seen.fresh = Number(now > fix);
+    if (!seen.fresh) return seen;
+    if (sigma) {
+      const age = fix < 0 ? Infinity : (now - fix) * dt / lasting, keep = Math.exp(-age),
           share = Math.sqrt(-Math.expm1(-2 * age)), fresh = normals(run, now, seed);
       error = error.map((old, i) => keep * old + share * fresh[i]);
-      fix = now;
     }
-    const [x, y] = past[now];
-    return [x + sigma * error[0], y + sigma * error[1], past[Math.max(k - late, 0)][2]];
+    const [x, y, heading] = past[now], east = Math.cos(heading), north = Math.sin(heading);
+    seen.x = x + ahead * east - left * north + sigma * error[0];
+    seen.y = y + ahead * north + left * east + sigma * error[1];
+    seen.heading = wrap(heading + off + scatter * normals(run, now, seed, streams.scatter)[0]);
+    seen.later = dt * (now - fix);
+    seen.age = dt * (k - now);
+    fix = now;
+    return seen;
   };
 }
 
-// One run to the goal: where it ends, seen from there, m and rad; infinitely far if not in time.
+// The speeds of the wheels, as `commanded` of wmrrobot/steering.py.
+function commanded(m, [rho, alpha, theta], { gains, wheels, turn }) {
+  let v = 0, omega = 0;
+  if (m.state === DRIVE) {
+    [v, omega] = correctedLaw(rho, alpha, theta, gains);
+    const more = hurry(v * rho, alpha, wheels.min_speed);
+    [v, omega] = [v * rho * more, omega * more];
+  } else if (m.state === TURN && Math.abs(m.remaining_turn) > turn.tolerance)
+    omega = turnRate(m.remaining_turn, turn.gain, turn.min_rate, turn.max_rate);
+  const scale = saturationScale(wheels.max_speed, fastestWheel(v, omega, wheels.track_width));
+  return wheelsOf(scale * v, scale * omega, wheels.track_width);
+}
+
+const wheelsOf = (v, omega, width) => [v - omega * width / 2, v + omega * width / 2];
+
+// One run until the robot stands, parked or stopped, as `trial` of wmrrobot/trials.py: where it
+// ends, seen from the goal, m and rad; infinitely far if it has not parked in time.
 export function parkedRun(robot, told, rules, run) {
-  const { track_width: b, acceleration, dead_band, period: dt } = robot;
-  const first = Math.atan2(told.y, told.x) + Math.PI * ((run * rules.golden) % 1 - 0.5);
-  let end = [0, 0, 0], time = 0;
-  const [, outcome] = drive({ law: 'corrected', step: arcStep, moving: false, gains: told.gains, dt,
-    samples: Math.floor(told.duration / dt + 1e-9) + 1, start: [0, 0, wrap(first)],
-    goal: [told.x, told.y, told.heading], arrivalRadius: told.radius, end: told.turn,
-    limits: { b, ...told.wheels }, motors: [b, acceleration, 0, dead_band, 0],
-    sight: sightOf(robot, run, rules.seed) }, (k, t, pose) => { [end, time] = [pose, t]; });
-  if (outcome !== ARRIVED) return { place: Infinity, heading: Infinity, time: Infinity };
-  const [compass] = normals(run, 0, rules.seed, rules.compass),
-      off = robot.compass / DEGREES * compass;
-  const turned = wrap(end[2] - told.heading + off);
-  return { at: [end[0] - told.x, end[1] - told.y, told.heading + turned], time,
-      place: Math.hypot(end[0] - told.x, end[1] - told.y)
-        + 2 * armOf(robot) * Math.abs(Math.sin(off / 2)), heading: Math.abs(turned) };
+  const { wheels, turn } = told, { track_width: width, period: dt } = robot,
+      motors = [width, wheels.acceleration, rules.lag, wheels.dead_band, 0],
+      samples = Math.floor(told.duration / dt + 1e-9) + 1,
+      look = sensorsOf(robot, rules, run), m = memory();
+  let pose = [0, 0, wrap(Math.atan2(told.y, told.x) + Math.PI * ((run * rules.golden) % 1 - 0.5))],
+      body = [0, 0, 0, 0], rolled = [0, 0];
+  for (let k = 0; k < samples; k++) {
+    const seen = look(k, pose, rolled);
+    observe(m, seen, told.rules, wheels);
+    const polar = polarFromPose(m.pose.x, m.pose.y, m.pose.heading, told.x, told.y, told.heading);
+    aim(m, seen, polar[0], polar[1], polar[2], turn);
+    decide(m, seen, told.rules, turn);
+    const [left, right] = commanded(m, polar, told);
+    m.left.commanded = left;
+    m.right.commanded = right;
+    if (m.state >= PARKED && atRest(body)) {
+      if (m.state !== PARKED) break;
+      const [x, y] = [pose[0] - told.x, pose[1] - told.y], turned = wrap(pose[2] - told.heading);
+      return { at: [x, y, pose[2]], time: k * dt, place: Math.hypot(x, y),
+          heading: Math.abs(turned) };
+    }
+    const [v, omega, ...after] = roll((left + right) / 2, (right - left) / width, ...body,
+        ...motors, dt);
+    body = after;
+    rolled = wheelsOf(dt * v, dt * omega, width);
+    pose = arcStep(pose[0], pose[1], pose[2], v, omega, dt);
+  }
+  return { place: Infinity, heading: Infinity, time: Infinity };
 }
 
 // Which of the runs' sorted values is the bound, as `sure` of wmrrobot/sheets.py.

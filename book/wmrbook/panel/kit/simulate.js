@@ -21,7 +21,7 @@ function limited(twist, alpha, { b, max_speed, min_speed }) {
   return [share * v, share * omega];
 }
 
-const atRest = (body) => Math.abs(body[0]) < 1e-3 && Math.abs(body[1]) < 1e-3;
+export const atRest = (body) => Math.abs(body[0]) < 1e-3 && Math.abs(body[1]) < 1e-3;
 
 // One run, sample by sample, told to `record(k, t, pose, seen, twist, goal)`. The law may see what
 // `sight(k, pose)` shows of a pose. Gives [samples, outcome].
