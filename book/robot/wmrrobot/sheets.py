@@ -48,7 +48,8 @@ class Robot(NamedTuple):
     track_width, max_speed, acceleration, dead_band : float, m, m/s, m/s^2, m/s; of the wheels
     period, delay : float, s; of the control loop, and how old the pose is that it sees
     sigma, memory, fix_period, compass : float, m, s, s, degrees; of the receiver's error to the
-        east and to the north, and of the compass, which errs by one angle in a drive
+        east and to the north, and of the compass, which errs by one angle in a drive. Far more than
+        20 degrees, and the checks would take it for a fault.
     quality : float, the least that a fix must have, as NMEA counts: 1 GPS, 2 differential, 5 RTK
         float and, the best, 4 RTK fixed
     antenna_ahead, antenna_left : float, m from the middle between the wheels
@@ -87,7 +88,7 @@ BOUNDS = {
     "sigma": (0.0, 10.0, "m"),
     "memory": (0.0, 10000.0, "s"),
     "fix_period": (0.01, 5.0, "s"),
-    "compass": (0.0, 45.0, "degrees"),
+    "compass": (0.0, 20.0, "degrees"),
     "quality": (1.0, 5.0, ""),
     **dict.fromkeys(("antenna_ahead", "antenna_left"), (-5.0, 5.0, "m")),
 }
@@ -199,9 +200,12 @@ def sheet(robot: Robot) -> Sheet:
     max_rate = max(min_rate, min(1.0, speed / robot.track_width))
     tolerance = max(0.02, min_rate * late + min_rate**2 / (2 * braking))
     if tolerance > COARSE:
+        guilty = "delay" if min_rate * robot.delay > 0.5 * tolerance else "dead_band"
+        others = {"delay": "dead band", "dead_band": "delay"}[guilty]
         coarse = f"a last turn within {math.degrees(COARSE):.0f} deg"
-        more = f"; with this width, acceleration and delay it is {math.degrees(tolerance):.0f} deg"
-        raise refused("dead_band", dead, coarse, more)
+        comes = f"it is {math.degrees(tolerance):.0f} deg"
+        more = f"; with this width, acceleration and {others} {comes}"
+        raise refused(guilty, getattr(robot, guilty), coarse, more)
     k, far = gains.k_rho, math.log1p(-math.exp(-gains.k_rho * apart))
     travel = (k * (apart - radius) + far - math.log1p(-math.exp(-k * radius))) / rate
     gain = min(2.0, 0.5 / late, braking / max_rate)
@@ -244,10 +248,15 @@ def certificate(
 ) -> Certificate:
     """Drive the robot of the sheet `runs` times, each with errors and a first heading of its own.
 
-    It first faces the goal to within half of the `spread`, in turns: from behind, a robot whose
-    pose is late and whose wheels are slow may swing to and fro for ever. A drive that does not end
-    in time counts as infinitely far off. With an antenna off the middle, the error of the compass
-    is in the place too: it turns the robot about its antenna.
+    It drives as `Drive` does, with its checks and by the same functions. It first faces the goal to
+    within half of the `spread`, in turns. A drive that does not park in time, because its checks
+    stop it or because it swings to and fro, counts as infinitely far off. The wheels lag by
+    0.1 s and the compass scatters by 0.02 rad, neither of which the sheet knows. Times of the
+    receiver are rounded up to whole periods.
+
+    Raises
+    ------
+    ValueError : as `sheet`, and for a seed that is no whole number from 0 to 2**64 - 1
     """
     settings = sheet(robot)
     aside = 2 * math.pi * spread * (np.arange(runs) * GOLDEN % 1.0 - 0.5)

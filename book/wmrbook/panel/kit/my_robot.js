@@ -172,8 +172,9 @@ function render({ model, el }) {
     const found = certified(ends, rules);
     showExpected(expected(found, rules.runs));
     sentence.textContent = found.place_bound === Infinity
-      ? `${rules.runs - found.parked} of ${rules.runs} drives did not end in time: nothing is ` +
-        'certain of the others. Try a shorter delay, slower or stronger wheels.'
+      ? `${rules.runs - found.parked} of ${rules.runs} drives did not park in time, or their ` +
+        'checks stopped them: nothing is certain of the others. Try a shorter delay, slower or ' +
+        'stronger wheels, or a better compass.'
       : `With 95 % confidence, 95 of 100 drives end within ${written(found.place_bound, 'm')} of ` +
         `the goal, and as many within ${written(found.heading_bound * DEGREES, '°')} of its ` +
         `heading, if robot and receiver are as you say, and while every fix is ${presumed()}. ` +

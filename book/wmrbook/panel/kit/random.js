@@ -15,11 +15,11 @@ function upper(a, b) {
 function philox([a, b, c, d], key) {
   let [one, two] = key;
   for (let round = 0; round < 10; round += 1) {
-    [a, b, c, d] = [
-      upper(0xCD9E8D57, c) ^ b ^ one, Math.imul(0xCD9E8D57, c),
-      upper(0xD2511F53, a) ^ d ^ two, Math.imul(0xD2511F53, a),
-    ].map((word) => word >>> 0);
-    [one, two] = [(one + KEYS[0]) % WORD, (two + KEYS[1]) % WORD];
+    const left = upper(0xCD9E8D57, c), right = upper(0xD2511F53, a); // of the products below
+    [a, b, c, d] = [(left ^ b ^ one) >>> 0, Math.imul(0xCD9E8D57, c) >>> 0,
+      (right ^ d ^ two) >>> 0, Math.imul(0xD2511F53, a) >>> 0];
+    one = (one + KEYS[0]) % WORD;
+    two = (two + KEYS[1]) % WORD;
   }
   return [a, b, c, d];
 }

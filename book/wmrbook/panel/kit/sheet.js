@@ -78,9 +78,11 @@ export function sheetOf(robot, rules) {
       tolerance = Math.max(0.02, minRate * late + minRate ** 2 / (2 * braking));
   const gain = Math.min(2, 0.5 / late, braking / maxRate);
   if (tolerance > rules.coarse) {
-    const { message } = notAllowed('dead_band', digits(dead),
+    const [guilty, others] = minRate * delay > 0.5 * tolerance ? ['delay', 'dead band']
+        : ['dead_band', 'delay'];
+    const { message } = notAllowed(guilty, digits(robot[guilty]),
         `a last turn within ${(rules.coarse * DEGREES).toFixed(0)} deg`);
-    throw new RangeError(`${message}; with this width, acceleration and delay it is `
+    throw new RangeError(`${message}; with this width, acceleration and ${others} it is `
       + `${(tolerance * DEGREES).toFixed(0)} deg`);
   }
   const oldest = delay + rules.margin, { usual } = rules,
@@ -159,7 +161,6 @@ const wheelsOf = (v, omega, width) => [v - omega * width / 2, v + omega * width 
 // ends, seen from the goal, m and rad; infinitely far if it has not parked in time.
 export function parkedRun(robot, told, rules, run) {
   const { wheels, turn } = told, { track_width: width, period: dt } = robot,
-      motors = [width, wheels.acceleration, rules.lag, wheels.dead_band, 0],
       samples = Math.floor(told.duration / dt + 1e-9) + 1,
       look = sensorsOf(robot, rules, run), m = memory();
   let pose = [0, 0, wrap(Math.atan2(told.y, told.x) + Math.PI * ((run * rules.golden) % 1 - 0.5))],
@@ -179,8 +180,8 @@ export function parkedRun(robot, told, rules, run) {
       return { at: [x, y, pose[2]], time: k * dt, place: Math.hypot(x, y),
           heading: Math.abs(turned) };
     }
-    const [v, omega, ...after] = roll((left + right) / 2, (right - left) / width, ...body,
-        ...motors, dt);
+    const [v, omega, ...after] = roll((left + right) / 2, (right - left) / width, body[0], body[1],
+        body[2], body[3], width, wheels.acceleration, rules.lag, wheels.dead_band, 0, dt);
     body = after;
     rolled = wheelsOf(dt * v, dt * omega, width);
     pose = arcStep(pose[0], pose[1], pose[2], v, omega, dt);
