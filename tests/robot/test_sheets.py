@@ -32,6 +32,9 @@ WRONG = {
     "the points are 111 km apart: at most 1 km is allowed": {"goal_lat": 34.273572},
     "dead_band = 0.3 is not allowed: a last turn within 20 deg is needed; "
     "with this width, acceleration and delay it is 36 deg": {"dead_band": 0.3},
+    "delay = 2 is not allowed: a last turn within 20 deg is needed; "
+    "with this width, acceleration and dead band it is 37 deg": {"delay": 2.0},
+    "compass = 21 is not allowed: a number from 0 to 20 degrees is needed": {"compass": 21.0},
     "sigma = nan is not allowed: a finite number is needed": {"sigma": math.nan},
 }
 
@@ -111,7 +114,7 @@ def test_place_follows_the_receiver_and_heading_the_compass():
     still, shaky = (certificate(Robot(compass=degrees)) for degrees in (0.0, 10.0))
     assert still.heading_rms < sheet(Robot()).turn.tolerance
     assert shaky.heading_rms == pytest.approx(math.radians(10.0), rel=0.15)
-    assert shaky.place_rms == still.place_rms
+    assert shaky.place_rms == pytest.approx(still.place_rms, rel=0.15)
 
 
 def test_a_bound_holds_with_the_confidence_that_is_claimed():
@@ -122,13 +125,35 @@ def test_a_bound_holds_with_the_confidence_that_is_claimed():
     assert sheets.sure(20) > 20  # too few to be sure of anything
 
 
-def test_a_late_and_slow_robot_that_first_faces_away_may_never_park():
+def test_a_late_and_slow_robot_parks_from_behind_too():
+    """Its pose is late, but the odometry knows where it is by now."""
     wheels = {"max_speed": 0.8, "acceleration": 0.2, "dead_band": 0.04}
     robot = Robot(**wheels, memory=30.0, period=0.2, delay=0.8, fix_period=0.1)
-    towards, round_about = (certificate(robot, spread=spread) for spread in (0.5, 1.0))
-    assert round_about.parked < 0.8 * towards.parked
-    assert round_about.place_bound == round_about.heading_bound == math.inf
-    assert certificate(Robot(), spread=1.0).parked == towards.parked == 400  # others may
+    for kind in (robot, Robot()):
+        towards, round_about = (certificate(kind, spread=spread) for spread in (0.5, 1.0))
+        assert towards.parked == round_about.parked == 400
+        assert round_about.place_bound == pytest.approx(towards.place_bound, rel=0.1)
+
+
+def test_drives_that_the_checks_stop_leave_no_bound():
+    """A compass that is 46 degrees off, or that turns an arm of 7 m, is taken for a fault."""
+    result = certificate(Robot(antenna_ahead=5.0, antenna_left=5.0, compass=20.0), runs=200)
+    assert 0.5 * 200 < result.parked < sheets.sure(200)
+    assert result.place_bound == result.heading_bound == math.inf
+    assert np.isfinite([result.place_rms, result.heading_rms, result.time]).all()
+
+
+@pytest.mark.parametrize("fix_period", [1.0, 3.0])
+def test_a_poor_compass_parks_with_rare_fixes(fix_period):
+    """It leads the odometry astray until the next fix, which is no jump."""
+    robot = Robot(compass=10.0, fix_period=fix_period, delay=0.0)
+    assert certificate(robot, runs=100).parked >= 99
+
+
+@pytest.mark.parametrize("seed", [-1, 2**64, 1.5])
+def test_a_seed_that_is_none_is_refused(seed):
+    with pytest.raises(ValueError, match=f"^seed = {re.escape(str(seed))} is not allowed"):
+        certificate(Robot(), seed=seed)
 
 
 def test_yaml_says_the_sheets_numbers_and_all_of_them_as_floats():
@@ -290,7 +315,7 @@ def test_an_unusual_robot_parks_by_its_file_on_the_simulated_robot(name, tmp_pat
 
 
 @settings(max_examples=20, deadline=None)
-@given(st.sampled_from([*robots(20)]), st.floats(-1.0, 1.0), st.floats(0.0, 40.0))
+@given(st.sampled_from([*robots(20)]), st.floats(-1.0, 1.0), st.floats(0.0, 20.0))
 def test_the_ros_file_is_the_drive_of_the_sheet(robot, ahead, compass):
     robot = robot._replace(antenna_ahead=ahead, antenna_left=-ahead, compass=compass)
     numbers, flat = sheet(robot), {}

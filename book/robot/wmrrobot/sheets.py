@@ -28,6 +28,7 @@ COARSE = 0.35  # rad: a last turn that is coarser is none
 MARGIN = 0.2  # s: a fix may be so much older than usual
 STEADY = 4.0  # sigmas: two fixes of a sound receiver differ by less
 SCATTER = 0.02  # rad: the headings of two fixes differ by so much, whatever the compass error
+SIDE = 3.0  # sigmas of the compass: few are farther off
 LAG = 0.1  # s that the wheels of the certificate's robot lag
 SWING = 2.0  # times a wrong compass moves the place on the antenna's arm: a last turn turns that
 CLOSE = 0.1  # m: no jump that is smaller is refused
@@ -102,7 +103,7 @@ RECEIVERS = {
 
 
 class Sheet(NamedTuple):
-    """The settings of a robot; m, s, rad. x is east of the start, and `duration` ends a drive."""
+    """The settings of a robot; m, s, rad. x is east of the start, `duration` ample for a drive."""
 
     x: float
     y: float
@@ -217,10 +218,12 @@ def sheet(robot: Robot) -> Sheet:
     usual = Rules()
     wheels = wmr.Wheels(robot.track_width, speed, min_speed, robot.acceleration, dead_band=dead)
     # A wrong heading turns the antenna about the robot, and the way since a late fix about the fix;
-    # a speed that changes shows a wrong age.
+    # a speed that changes shows a wrong age. A wrong compass leads the odometry astray until the
+    # next fix, which the slip excuses in part.
+    lost = max(0.0, SIDE * math.radians(robot.compass) - usual.slip) * v_max * robot.fix_period
     error = math.hypot(robot.sigma, swing, SCATTER * v_max * robot.delay)
     aged = MARGIN * min(robot.acceleration * robot.fix_period, speed)
-    jump = max(CLOSE, STEADY * error + aged)
+    jump = max(CLOSE, STEADY * error + aged + lost)
     rules = usual._replace(
         arrival_radius=radius,
         patience=oldest + 2 * max(robot.fix_period, robot.period),
@@ -271,10 +274,11 @@ def certificate(
         LAG,
         Sensors(dt, SCATTER, *arm, settings.rules.least, robot.sigma),
         receiver,
-        settings.duration,
+        settings.rules.longest_drive + settings.rules.longest_wait,
         seed,
     )
-    far, turned = np.hypot(end.x - goal.x, end.y - goal.y), wmr.wrap_angle(end.heading - goal.heading)
+    far = np.hypot(end.x - goal.x, end.y - goal.y)
+    turned = wmr.wrap_angle(end.heading - goal.heading)
     place, heading = (np.where(end.parked, errors, np.inf) for errors in (far, abs(turned)))
     least = sure(runs)
     place_rms, heading_rms = (_rms(errors[end.parked]) for errors in (place, heading))

@@ -46,7 +46,7 @@ QUALITIES = (
     "RTK float or fixed",
 )
 NUMBERS = ("spare", "brake", "nearest", "moves", "coarse", "margin", "steady", "close", "leg")
-NUMBERS += ("scatter", "lag", "swing", "surest", "far", "golden", "runs", "seed", "share")
+NUMBERS += ("scatter", "side", "lag", "swing", "surest", "far", "golden", "runs", "seed", "share")
 
 
 class MyRobot(Panel):

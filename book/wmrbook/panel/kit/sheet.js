@@ -88,7 +88,9 @@ export function sheetOf(robot, rules) {
   const oldest = delay + rules.margin, { usual } = rules,
       error = Math.hypot(robot.sigma, swing, rules.scatter * vMax * delay),
       aged = rules.margin * Math.min(acceleration * robot.fix_period, speed),
-      jump = Math.max(rules.close, rules.steady * error + aged);
+      lost = Math.max(0, rules.side * robot.compass / DEGREES - usual.slip) * vMax
+        * robot.fix_period,
+      jump = Math.max(rules.close, rules.steady * error + aged + lost);
   const k = rate / vMax, near = (rho) => Math.log1p(-Math.exp(-k * rho)),
       travel = (k * (distance - radius) + near(distance) - near(radius)) / rate,
       duration = Math.ceil(60 + 2 * travel);
@@ -161,7 +163,8 @@ const wheelsOf = (v, omega, width) => [v - omega * width / 2, v + omega * width 
 // ends, seen from the goal, m and rad; infinitely far if it has not parked in time.
 export function parkedRun(robot, told, rules, run) {
   const { wheels, turn } = told, { track_width: width, period: dt } = robot,
-      samples = Math.floor(told.duration / dt + 1e-9) + 1,
+      longest = told.rules.longest_drive + told.rules.longest_wait,
+      samples = Math.floor(longest / dt + 1e-9) + 1,
       look = sensorsOf(robot, rules, run), m = memory();
   let pose = [0, 0, wrap(Math.atan2(told.y, told.x) + Math.PI * ((run * rules.golden) % 1 - 0.5))],
       body = [0, 0, 0, 0], rolled = [0, 0];
