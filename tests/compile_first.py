@@ -29,6 +29,8 @@ wmr.track(*circle, method="continuous", duration=1.0)
 wmr.sweep(start, goal, many, method="arc", trajectories=True)
 wmr.sweep(start, goal, many, method="arc", receiver=wmr.Receiver(0.1))
 wmr.sweep(start, goal, many, trajectories=True)
+import wmrrobot as wr
+wr.certificate(wr.Robot(), runs=1)
 """
 
 

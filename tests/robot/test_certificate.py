@@ -21,19 +21,23 @@ NEAR = {"goal_lat": 33.2737}  # 17 m away
 DRIVES, MOST = 40, 7  # of 40 drives with a chance of 5 %, seven lie beyond in one case of 1000
 
 
-def driven(robot, seeds):
-    """The places [m] and headings [rad] in which example.c parks; infinite if it does not."""
+def printed(robot, seeds):
+    """What example.c prints when it drives the robot of a sheet."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "my_robot.h").write_text(files(robot)["my_robot.h"], encoding="utf-8")
         program = Path(folder, "example")
         options = "-std=c99", "-DMY_ROBOT", f"-I{folder}", *INCLUDES
         command = ["cc", *options, printing.C_EXAMPLE, "-o", program, "-lm"]
         subprocess.run(command, check=True)
-        ends = []
-        for seed in seeds:
-            text = subprocess.check_output([program, str(seed)], text=True)
-            parked = re.search(r"^parked: (\S+) m and (\S+) deg", text, re.MULTILINE)
-            ends.append(tuple(map(float, parked.groups())) if parked else (math.inf, math.inf))
+        return [subprocess.check_output([program, str(seed)], text=True) for seed in seeds]
+
+
+def driven(robot, seeds):
+    """The places [m] and headings [rad] in which it parks; infinite if it does not."""
+    ends = []
+    for text in printed(robot, seeds):
+        parked = re.search(r"^parked: (\S+) m and (\S+) deg", text, re.MULTILINE)
+        ends.append(tuple(map(float, parked.groups())) if parked else (math.inf, math.inf))
     places, degrees = np.transpose(ends)
     return places, np.radians(degrees)
 
@@ -70,6 +74,15 @@ def test_few_drives_end_beyond_the_bounds(robot, seed):
     places, headings = driven(robot, range(seed, seed + DRIVES))
     assert (places > sure.place_bound + 5e-4).sum() <= MOST  # it prints millimetres
     assert (headings > sure.heading_bound + 1e-3).sum() <= MOST
+
+
+@pytest.mark.needs("compiler")
+def test_the_simulated_robot_keeps_a_period_that_is_no_whole_number_of_milliseconds():
+    period = 0.0333
+    (text,) = printed(Robot(period=period), [1])
+    count = int(re.search(r"^(\d+) \S+ \S+ \S+$", text, re.MULTILINE)[1])
+    stood = float(re.search(r"goal, (\S+) s$", text, re.MULTILINE)[1])
+    assert stood == pytest.approx(count * period, abs=1.0)  # the last part of it, it stands
 
 
 @settings(max_examples=40)

@@ -27,7 +27,7 @@ static void my_plan(wmr_plan *plan) {
   wmr_local_position_e7(332735720, 443731600, 332740870, 443732640, &plan->goal.x, &plan->goal.y);
 }
 #endif
-#define PERIOD_MS ((uint32_t)(1000 * MY_PERIOD + WMR_C(0.5)))
+#define PERIOD_MS ((uint32_t)(1000 * MY_PERIOD + WMR_C(0.5))) /* rounded, for the watchdog */
 #define COUNT_M WMR_C(0.0005) /* what a wheel rolls in a count of its encoder */
 /* periods: then it gives up; so many more than a drive may take, for the waits */
 #define MOST (20000 + (long)(plan.rules.longest_drive / MY_PERIOD))
@@ -127,7 +127,7 @@ int main(void) {
     const wmr_wheels wheels = wmr_drive(&memory, &seen, &plan);
     begun += past_ms;
     if (memory.state == WMR_STOPPED) cut_power(); /* until a person switches it on again */
-    set_wheels(wheels, WMR_C(0.001) * PERIOD_MS);
+    set_wheels(wheels, MY_PERIOD);
     if (memory.reason != reason) printf("%s\n", wmr_reason(reason = memory.reason));
     if (clock_ms() - begun <= PERIOD_MS) feed_watchdog(); /* only by a turn in time */
     wait_for_timer();

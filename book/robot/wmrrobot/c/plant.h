@@ -1,5 +1,5 @@
-/* plant.h: a simulated robot for example.c, as the sheet of my_robot.h describes it, and with a lag
-   of the wheels, which the sheet does not know. Metres, seconds, radians. */
+/* plant.h: a simulated robot for example.c, as the sheet of my_robot.h describes it. The sheet does
+   not know the lag of its wheels and how its compass shakes. Metres, seconds, radians. */
 #ifndef PLANT
 #define PLANT
 #include <stdlib.h>
@@ -18,6 +18,7 @@ static struct {
   double wanted[2], speed[2], rolled[2]; /* m/s, m/s, m: left, right */
   double error[2], compass;          /* m, rad */
   uint32_t ms, due, stood;           /* since the start; of the next fix; since when it stands */
+  double until;                      /* ms: the end of the period */
   unsigned long chance;
 } plant;
 
@@ -61,8 +62,9 @@ static void plant_step(void) {
   plant.ms += PLANT_STEP_MS;
   if (fabs(plant.speed[0]) + fabs(plant.speed[1]) > 1e-3) plant.stood = plant.ms;
 }
-static void wait_for_timer(void) {
-  for (uint32_t ms = 0; ms < PERIOD_MS; ms += PLANT_STEP_MS) plant_step();
+static void wait_for_timer(void) { /* to the nearest step: no error adds up */
+  plant.until += 1000.0 * (double)MY_PERIOD;
+  while (plant.ms + 0.5 * PLANT_STEP_MS < plant.until) plant_step();
 }
 
 static int read_fix(robot_fix *fix) {
