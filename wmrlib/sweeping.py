@@ -171,7 +171,7 @@ def sweep(
     radius = scalar("arrival_radius", arrival_radius, low=0.0)
     if receiver and method == "continuous":
         raise refusal("method", method, "'arc' or 'euler'", ": a receiver is read at samples")
-    numbers = key_of(seed)
+    words = key_of(seed)
     end = checked_turn(last_turn, dt, method, radius)
     hysteresis = checked_hysteresis(hysteresis, method)
     ideal = bool(np.all(are_ideal(robot)))
@@ -194,7 +194,7 @@ def sweep(
     alike = {*map(type, robot)} == {float} and not robot.min_speed
     plain = ideal and alike and end == NO_TURN and not hysteresis
     side_by_side = plain and not receiver and not trajectories and not own
-    key = numbers if receiver else None
+    key = words if receiver else None
     law_in_loop = own_law(own) if own else None
     setting = sampling, samples, robot, end, key, side_by_side, law_in_loop
     task = _Task(method == "continuous", *setting)

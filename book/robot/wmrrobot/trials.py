@@ -13,7 +13,7 @@ import numpy as np
 
 from wmrlib.body import LastTurn, Wheels, at_rest, roll
 from wmrlib.compilation import compiled, formula
-from wmrlib.elementary import distance, wrap
+from wmrlib.elementary import wrap
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.laws import CORRECTED
@@ -172,6 +172,6 @@ def ends_of(
     record, rows, real = np.empty((3, samples)), [], plan.wheels._replace(lag=lag)
     for run, heading in enumerate(headings):
         memory = np.zeros((), _MEMORY)[()]
-        sensor = SampledReceiver(*fields, run, key)
+        sensor = SampledReceiver._make((*fields, run, key))
         rows.append(trial(memory, record, heading, plan, real, sensors, sensor))
     return Ends(*map(np.array, zip(*rows, strict=True)))

@@ -32,16 +32,16 @@ class _JavaScript(Code):
         truth = isinstance(value, TRUTH) or isinstance(getattr(value, "op", None), ast.Not)
         return f"Number({self.visit(value)})" if truth else self.visit(value)
 
-    def visit_Name(self, node):
+    def visit_Name(self, node):  # noqa: N802 (ast's name)
         return super().visit_Name(node).removeprefix("WMR_")
 
-    def visit_Constant(self, node):
+    def visit_Constant(self, node):  # noqa: N802 (ast's name)
         return repr(node.value).removesuffix(".0")
 
-    def visit_Attribute(self, node):
+    def visit_Attribute(self, node):  # noqa: N802 (ast's name)
         return f"{self.visit(node.value)}.{node.attr}"
 
-    def visit_Call(self, node):
+    def visit_Call(self, node):  # noqa: N802 (ast's name)
         given = ", ".join(map(self.visit, node.args))
         return f"{_CALLS.get(node.func.id, javascript_name(node.func.id))}({given})"
 

@@ -121,11 +121,10 @@ function sensorsOf(robot, { seed, streams, scatter }, run) {
     fresh: 0, x: 0, y: 0, heading: 0, antenna_ahead: ahead, antenna_left: left,
     quality: robot.quality, error: sigma, later: 0, age: 0 };
   let fix = -1, error = [0, 0];
-  return (k, pose, [rolledLeft, rolledRight]) => {
+  return (k, pose, rolled) => {
     past.push(pose);
     const now = Math.max(Math.floor(k / period) * period - late, 0);
-    seen.left = rolledLeft;
-    seen.right = rolledRight;
+    [seen.left, seen.right] = rolled;
     seen.fresh = Number(now > fix);
     if (!seen.fresh) return seen;
     if (sigma) {
@@ -145,7 +144,8 @@ function sensorsOf(robot, { seed, streams, scatter }, run) {
 }
 
 // The speeds of the wheels, as `commanded` of wmrrobot/steering.py.
-function commanded(m, [rho, alpha, theta], { gains, wheels, turn }) {
+function commanded(m, polar, { gains, wheels, turn }) {
+  const [rho, alpha, theta] = polar;
   let v = 0, omega = 0;
   if (m.state === DRIVE) {
     [v, omega] = correctedLaw(rho, alpha, theta, gains);
