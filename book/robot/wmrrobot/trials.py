@@ -66,7 +66,7 @@ def _record_of(kind: type) -> np.dtype:
             fields.append((name, _record_of(odometry.Stretch), (odometry.PAST,)))
         else:
             fields.append((name, plain.get(hint) or _record_of(hint)))
-    return np.dtype(fields)
+    return np.dtype((np.record, fields))
 
 
 _MEMORY = _record_of(Memory)
