@@ -162,7 +162,7 @@ def test_without_the_books_settings_a_picture_waits_and_the_panel_comes_from_the
         page.locator(".wmr-still img").first.wait_for(timeout=PATIENCE)
         assert page.locator(".wmr").count() == 0
         stills = page.locator(".wmr-still").all()
-        assert all(re.search(r"\d.* Run this cell to move it", words(it)) for it in stills)
+        assert all(re.search(r"\w[.?!] Run this cell to move it", words(it)) for it in stills)
         assert all(it.locator("img").get_attribute("alt") for it in stills)
         page.evaluate(RUN_ALL)
         assert_slider_matters(page, sliders(page)[0])
