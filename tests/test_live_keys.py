@@ -41,7 +41,6 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "bowl simulate": _uphill,
     "seam sweep": lambda f: lambda *a, **o: f(*a, **o | {"hysteresis": 0.4}),
     "two_bars control_law": lambda f: lambda *a: (-f(*a)[0], f(*a)[1]),
-    "x_axis polar_error": lambda f: lambda a, b: f(b, a),
     "lag track": lambda f: lambda g, a, k, **o: f(g, a, k._replace(k_rho=1.9), **o),
     "window simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(v_max=4.0), **o),
     "poles modes": lambda f: lambda k: f(k._replace(h=1 / k.h)),
@@ -51,7 +50,6 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "silence rolled": lambda f: lambda v, timeout, brake: f(v, timeout, -brake),
     "corners headings_along": lambda f: lambda x, y: -f(x, y),
     "race control_law": lambda f: lambda *a, **o: (-f(*a, **o)[0], f(*a, **o)[1]),
-    "heading_power simulate": lambda f: lambda a, b, k, **o: f(a, b, _backwards(k), **o),
     "passing drive_route": lambda f: lambda p, g, **o: f(p, g, **(o | {"pass_radius": 1e9})),
 }
 

@@ -269,17 +269,6 @@ def two_bars(values, results, data) -> None:
     assert rises.any() == (values["law"] != "corrected")
 
 
-def x_axis(values, results, data) -> None:
-    case = wmr.paper.outdoor(values["axis"])
-    same_run(results["run"], case.start, case.goal, case.gains)
-    assert results["alpha"] == pytest.approx(wmr.polar_error(case.start, case.goal).alpha)
-    east = wmr.paper.outdoor("east")  # the map is the same, however x points
-    np.testing.assert_allclose(results["goal"][:2], east.goal[:2], atol=1e-9)
-    bearing = math.pi / 2 - case.start.heading
-    seen = bearing if values["axis"] == "north" else case.start.heading
-    assert wmr.wrap_angle(results["start"][2] - seen) == pytest.approx(0.0, abs=1e-12)
-
-
 def round_the_circle(gains, law="corrected") -> wmr.Trajectory:
     circle, options = (wmr.paper.circle, wmr.paper.CIRCLE_START), {"duration": 40.0, "dt": 0.1}
     return wmr.track(*circle, gains, law=law, method="continuous", **options)
@@ -336,24 +325,6 @@ def race(values, results, data) -> None:
         assert run["left"] == pytest.approx(abs(ours.heading_error[-1]), abs=1e-6)
         driven = np.maximum(-ours.v[:-1], 0.0).sum() * data["dt"]
         assert run["back"] == pytest.approx(driven, abs=1e-6)
-
-
-def heading_power(values, results, data) -> None:
-    gains = wmr.Gains(**data["gains"])._replace(h=values["k_phi"], k_alpha=values["k_delta"])
-    ends, options = (
-        (pose(data["start"]), pose(data["goal"])),
-        {"law": "graceful", "duration": 120.0},
-    )
-    same_run(results["run"], *ends, gains, arrival_radius=0.005, **options)
-    stop = {"method": "continuous", "arrival_radius": values["radius"]}
-    ours = wmr.simulate(*ends, gains, **options, **stop)
-    assert results["left"] == pytest.approx(abs(ours.heading_error[-1]), abs=1e-7)
-    z = []
-    for radius in (0.02, 0.01):
-        run = wmr.simulate(*ends, gains, **options, **stop | {"arrival_radius": radius})
-        z.append(run.alpha[-1] + math.atan(gains.h * run.theta[-1]))
-    assert math.log2(z[0] / z[1]) == pytest.approx(gains.k_alpha, abs=0.02)
-    assert results["power"] == min(values["k_phi"], values["k_delta"])
 
 
 TRUTH = {name: globals()[name] for name in NAMES}  # each has its own, of the same name

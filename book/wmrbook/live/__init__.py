@@ -18,7 +18,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "robot": ["one_step", "turning_centre"],
         "angles": ["half_turn", "polar_angles"],
         "lyapunov": ["bowl", "seam", "two_bars"],
-        "pose_to_pose": ["x_axis"],
         "circle": ["lag", "lqr"],
         "design": ["poles", "window"],
         "sampling": ["parking", "unit_circle"],
@@ -26,6 +25,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "audit": ["rising"],
         "real_robot": ["silence"],
         "routes": ["corners", "passing"],
-        "other_laws": ["heading_power", "race"],
+        "other_laws": ["race"],
     },
 )
