@@ -8,7 +8,7 @@ from wmrbook.live.parts import Knob
 from wmrbook.stages.parts import Question, Scene, Stage
 from wmrlib import GENTLE_GAINS, Pose, lyapunov, polar_error
 
-GOAL, AWAY, HAIR, FACING = Pose(0.0, 0.0, 0.0), 5.0, 0.25, 120.0  # m, deg, deg
+GOAL, AWAY, HAIR, FACING = Pose(0.0, 0.0, 0.0), 5.0, 0.25, 180.0  # m, deg, deg
 
 
 def seam(scene: str = "whole") -> Stage:
@@ -24,8 +24,8 @@ def seam(scene: str = "whole") -> Stage:
     ends = "Blue {blue}, pink {pink}."
     scenes = {
         "whole": Scene(
-            "Half a degree to the other side, and it turns the other way. Is that a problem for "
-            "the proof? " + ends,
+            "They start half a degree apart and come from {ways}. Is that a problem for the "
+            "proof? " + ends,
         ),
         "ask": Scene(
             ends,
@@ -44,9 +44,7 @@ def seam(scene: str = "whole") -> Stage:
         "side": Knob(
             0.0, -10.0, 10.0, 0.5, "the start's place round the goal", "°", label="start aside"
         ),
-        "facing": Knob(
-            FACING, -180.0, 180.0, 5.0, "the way both face at first", "°", label="facing"
-        ),
+        "facing": Knob(FACING, 0.0, 360.0, 5.0, "the way both face at first", "°", label="facing"),
     }
     data = {"gains": GENTLE_GAINS._asdict(), "away": AWAY, "hair": HAIR}
     return Stage("seam", knobs, scenes, scene, goal=GOAL, hands=(), data=data)
