@@ -97,7 +97,7 @@ def fold(notebook: NotebookNode) -> None:
             heading.metadata.pop("jp-MarkdownHeadingCollapsed", None)
         elif "hide-cell" in cell.metadata.get("tags", ()):
             cell.metadata["jupyter"] = {"source_hidden": True, "outputs_hidden": True}
-            if heading.source.startswith("### Exercise"):
+            if not cell.source.startswith("# Check"):
                 heading.metadata["jp-MarkdownHeadingCollapsed"] = True
 
 

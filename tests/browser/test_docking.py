@@ -62,7 +62,8 @@ def test_beside_the_text_the_stage_follows_the_reader(opened, browser_page):
     (name, notebook), *_ = CHAPTERS.items()
     page = opened(f"notebooks/{name}.html")
     page.wait_for_selector("html.docked")
-    stage, text = page.locator(".docked-stage .wmr.stage"), page.locator(".bd-article section > p").first
+    stage = page.locator(".docked-stage .wmr.stage")
+    text = page.locator(".bd-article section > p").first
     box = stage.evaluate(BOX)
     assert box["bottom"] <= DESK["height"], "the stage is higher than the window"
     assert box["right"] <= DESK["width"], "the stage is wider than the window"
