@@ -28,7 +28,7 @@ def three_numbers(scene: str = "whole") -> Stage:
             "Which three numbers does a driver need? How far, how much to turn, and how far off "
             f"the approach. {ENDS}",
             shows=("errors",),
-            until=0.45,
+            until=0.2,
         ),
         "start": Scene(
             f"Drag the start and the goal, or turn them: {SEES}.", shows=("errors",), until=0.0

@@ -1,6 +1,9 @@
 // A small picture in an upper corner of another one, in units of its own.
 
+import { ahead } from './numbers.js';
 import { inside } from './surface.js';
+
+const ROBOT = 0.6 / 27; // m, a pixel of its drawing
 
 /**
  * Draws the frame; `at` gives the place in the large picture for one in the small one, and
@@ -27,3 +30,20 @@ export function insetOf(pane, side, { width, height }, [x0, x1], [y0, y1]) {
 /** As large as there is room. @param {Pane} pane @param {number} most px */
 export const insetSize = ({ box }, most) =>
     ({ width: Math.min(0.34 * box.width, most), height: Math.min(0.42 * box.height, most) });
+
+/**
+ * A goal from near, and the robots there, each [pose, role, share]; `reach` metres to the edge.
+ * @param {Pane} pane @param {Pose} goal @param {any[]} robots
+ */
+export function goalFromNear(pane, goal, robots, reach, most = 130) {
+  const { width, height } = insetSize(pane, most), side = Math.min(width, height), [x, y] = goal;
+  const inset = insetOf(pane, 'left', { width: side, height: side }, [x - reach, x + reach],
+    [y - reach, y + reach]), size = side / 2 / reach * ROBOT;
+  inset.within(() => {
+    for (const [pose, role, share] of robots)
+      pane.robot([...inset.at(pose), pose[2]], share, { size, role });
+    pane.dot(...inset.at(goal), 'goal', { hollow: true });
+    pane.arrow(...inset.at(goal), ...inset.at(ahead(goal, 0.8 * reach)), 'goal');
+  });
+  return inset;
+}

@@ -31,7 +31,8 @@ const ease = (share) => share * share * (3 - 2 * share);
  *   look(values, found, setup, how): what the camera shows, [left, bottom, right, top] in metres,
  *     where that is neither all of the way ("whole") nor the goal ("near");
  *   draw(pane, values, found, now, setup): what is on the lawn beside paths and robots; `now` has
- *     the time, the scene, what it `shows`, the robot's `pose` and its sample `k`;
+ *     the time, the scene, what it `shows`, the first robot's `pose` and its sample
+ *     `k`, and the `poses` of all;
  *   above(the same): what is above the robots.
  * @param {string} name @param {Play} play
  */
@@ -245,7 +246,7 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
     const size = Math.max(scale * ROBOT / ICON, 1);
     const sampled = found.tracks.map((track) => sampleAt(track, at));
     const now = { time: at, done, scene: it.name, shows: it.shows, k: sampled[0].k,
-      pose: sampled[0].pose, size };
+      pose: sampled[0].pose, poses: sampled.map(({ pose }) => pose), size };
     if (ghost)
       pane.path(ghost.x, ghost.y, 'ghost', { width: 1.5, dash: [2, 5], to: ghost.n });
     found.tracks.forEach(({ x: xs, y: ys, role }, k) =>
@@ -254,8 +255,8 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
     if (start) pane.pose(start, 'start');
     if (play.draw) play.draw(pane, state, found, now, setup);
     if (!it.empty)
-      found.tracks.forEach(({ role, share = 1 }, k) =>
-        pane.robot(sampled[k].pose, share, { size, role }));
+      for (const [k, { role, share = 1 }] of [...found.tracks.entries()].reverse())
+        pane.robot(sampled[k].pose, share, { size, role }); // the first one above the others
     if (play.above) play.above(pane, state, found, now, setup);
     if (goal) pane.pose(goal, 'goal');
     const off = goal ? wrap(now.pose[2] - goal[2]) : 0;

@@ -24,7 +24,10 @@ export default stage('downhill', {
     return [goal[0] - far, goal[1] - up, goal[0] + far, goal[1] + up];
   },
   say: (values, { parked, rises }) => ({ parked, rises: rises ? 'rises' : 'never rises' }),
-  draw(pane, values, { runs }, { time }) {
+  draw(pane, values, found, { size }, { data: { others: starts } }) {
+    for (const start of starts) pane.robot(start, 0.4, { size, role: 'ghost' });
+  },
+  above(pane, values, { runs }, { time }) {
     const { width, height } = insetSize(pane, 210);
     const most = Math.max(...runs.map(({ V }) => V[0]), 1e-9),
         last = Math.max(...runs.map(({ t, n }) => t[n - 1]), 1e-9);

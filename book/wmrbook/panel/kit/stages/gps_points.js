@@ -36,7 +36,7 @@ export default stage('gps_points', {
     bearing: `${((450 - wrap(Math.atan2(goal[1] - start[1], goal[0] - start[0])) * DEGREES) % 360)
         .toFixed(1)}°`,
   }),
-  draw(pane, { start, goal }, { told, labels, steps: [north, east] }, now) {
+  above(pane, { start, goal }, { told, labels, steps: [north, east] }, now) {
     const side = goal[0] < start[0] ? 'right' : 'left', size = insetSize(pane, 190);
     const beside = 24 + 10 * now.size + within((told[0] - goal[0]) / pane.pixel, 0, 120); // px
     for (const row of [0, 1]) {

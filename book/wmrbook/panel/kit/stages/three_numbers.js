@@ -2,10 +2,17 @@
 
 import { driven, endOf, gainsOf, inDegrees, stage, written } from '../drawing.js';
 
+const MARGIN = 2.5; // m
+
 export default stage('three_numbers', {
   find(values, setup) {
     const { start, goal } = values, run = driven({ start, goal, gains: gainsOf(values, setup) });
     return { run, tracks: [{ ...run, role: 'path' }] };
+  },
+  look({ start, goal }) {
+    const [xs, ys] = [0, 1].map((i) => [start[i], goal[i]]);
+    return [Math.min(...xs) - MARGIN, Math.min(...ys) - MARGIN, Math.max(...xs) + MARGIN,
+      Math.max(...ys) + MARGIN];
   },
   say: ({ goal }, { run }) => ({
     ends: endOf(run, goal), rho: written(run.rho[0], 'm'), alpha: inDegrees(run.alpha[0], 0),

@@ -23,8 +23,8 @@ export default stage('two_numbers', {
     metres: written(summarise(run).pathLength, 'm'),
     window: `the heading settles ${inside ? '' : 'no '}sooner than the distance`,
   }),
-  draw(pane, { h }, { kappa, inside, start }) {
-    pane.dot(start[0], start[1], 'start', { hollow: true });
+  draw(pane, values, { start: [x, y] }) { pane.dot(x, y, 'start', { hollow: true }); },
+  above(pane, { h }, { kappa, inside }) {
     const inset = insetOf(pane, 'left', insetSize(pane, 170), [-0.6, MOST[0]], [-0.6, MOST[1]]);
     inset.within(() => {
       pane.area([[2, 1], [2, MOST[1]], [1 + MOST[1], MOST[1]]].map(inset.at), 'start', 0.3);

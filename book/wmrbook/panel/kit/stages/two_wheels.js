@@ -36,7 +36,7 @@ export default stage('two_wheels', {
       aside: Math.abs(there.pose[0]) };
   },
   look(values, { tracks: [{ x, y }] }) {
-    const reach = 0.4 + Math.max(1.8, ...x.map(Math.abs), ...y.map(Math.abs));
+    const reach = 0.4 + Math.max(1.3, ...x.map(Math.abs), ...y.map(Math.abs));
     return [-reach, -reach, reach, reach];
   },
   say: (values, { v, omega, aside }) => ({
@@ -45,13 +45,14 @@ export default stage('two_wheels', {
         : 'stands still',
     aside: aside < 0.0005 ? 'nothing' : written(aside, 'm'),
   }),
-  draw(pane, { left, right }, { wheels }, { pose, k, size }, { data: { track_width: width } }) {
+  draw(pane, { left, right }, { wheels }, { pose, k, size, shows }, { data }) {
     pane.robot(START, 0.2, { size });
     for (const [i, speed] of [left, right].entries()) {
+      const away = pose[2] + (i ? -1 : 1) * Math.PI / 2;
+      const [x, y] = ahead([pose[0], pose[1], away], data.track_width / 2);
       pane.line(wheels[i].slice(0, k + 1), 'ink', { width: 1.5, dash: [2, 5] });
-      const side = [...ahead([pose[0], pose[1], pose[2] + (i ? -1 : 1) * Math.PI / 2], width / 2),
-        pose[2]];
-      if (speed) pane.arrow(side[0], side[1], ...ahead(side, speed), 'rho');
+      if (speed && !shows.includes('moves'))
+        pane.arrow(x, y, ...ahead([x, y, pose[2]], speed), 'rho');
     }
   },
 });
