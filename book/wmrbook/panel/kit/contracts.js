@@ -28,7 +28,7 @@ export const CONTRACTS = {
   'stages/as_printed': 'b121c742',
   'stages/course_from_gps': '1a8e6725',
   'stages/crooked_compass': '6a7571be',
-  'stages/downhill': 'c1159927',
+  'stages/downhill': 'f18e95e1',
   'stages/first_drive': '092554ab',
   'stages/gps_points': '00926cba',
   'stages/late_looks': '2f3036d5',

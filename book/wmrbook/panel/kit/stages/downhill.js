@@ -3,14 +3,15 @@
 import { freshRun, gainsOf, insetOf, insetSize, remembered, stage, wrap } from '../drawing.js';
 
 const ROOM = 6; // m, from the goal to the edge
-const how = { dt: 0.1, duration: 60 };
+const DT = 0.15; // s, between two samples
 const own = remembered(freshRun), others = remembered(({ starts, ...options }) =>
     starts.map((start) => freshRun({ start, ...options })));
 
 export default stage('downhill', {
   find(values, setup) {
-    const { start, goal } = values, { others: starts, radius, near } = setup.data;
-    const options = { ...how, goal, gains: gainsOf(values, setup), arrivalRadius: radius };
+    const { start, goal } = values, { others: starts, radius, near, seconds } = setup.data;
+    const options = { goal, gains: gainsOf(values, setup), arrivalRadius: radius, dt: DT,
+      duration: seconds };
     const runs = [own({ ...options, start }), ...others({ ...options, starts })];
     const rises = runs.reduce((sum, { V, n }) =>
       sum + V.filter((value, k) => k && k < n && value > V[k - 1] + 1e-9).length, 0);
