@@ -216,7 +216,7 @@ function render({ model, el }) {
       [theta, 'θ', angle(run.theta)], [ink, 'v', written(run.v[cursor], 'm/s')],
       [ink, 'ω', written(run.omega[cursor], 'rad/s')],
     ].map(([colour, name, value]) =>
-        `<span style="color: ${colour}"><b>${name}</b> = ${value}</span>`).join('');
+        `<span style="color: ${colour}"><b>${name}</b> ${value}</span>`).join('');
     scene.setAttribute('aria-label', `Path from start to goal. ${text}`);
     charts.setAttribute('aria-label',
         `Speed, turning rate, position errors and V over time. ${text}`);
