@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import itertools
+import math
 import re
+import sys
 
+import numpy as np
 import pytest
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
@@ -13,6 +16,8 @@ from host import TRAITS, mounted
 
 from wmrbook import stages
 from wmrbook.panel.kit import sources
+from wmrbook.stages.parts import off_heading
+from wmrlib import GENTLE_GAINS, Pose, Receiver, paper, simulate, sweep
 
 NAMES = sorted(set(stages.__all__) - stages.PARTS)
 UNSOUND = re.compile("NaN|undefined|Infinity|null|\\[object|\N{EN DASH}")
@@ -116,3 +121,83 @@ def test_a_goal_that_is_dragged_onto_the_start_is_reached_at_once(browser_page):
     panel.drag(panel.handle("goal", "move"), start["x"] - goal["x"], start["y"] - goal["y"])
     assert panel.get("goal")[:2] == pytest.approx(panel.get("start")[:2], abs=0.5)
     assert not UNSOUND.search(page.locator(".stage-say").inner_text())
+
+
+def _end(start, goal, gains, **options) -> str:
+    """Return when a run ends and how far off its heading, as a stage writes it."""
+    run = simulate(start, goal, gains, **options)
+    return f"{run.t[-1]:.1f} s, {off_heading(run):.0f}°"
+
+
+def _late() -> str:
+    start, goal, _, _ = paper.outdoor()
+    run = simulate(start, goal, GENTLE_GAINS, method="arc", dt=0.5)
+    far, off = 100 * run.rho[-1], off_heading(run)
+    return f"After {len(run.t)} looks it stops {far:.1f} cm from its goal, {off:.0f}° off"
+
+
+def _noisy() -> str:
+    module = sys.modules["wmrbook.stages.noisy_fixes"]
+    noise, where = Receiver(sigma=np.full(module.DAYS, module.SIGMA)), (module.START, module.GOAL)
+    options = {"method": "arc", "dt": module.DT, "duration": module.SECONDS}
+    ends = sweep(
+        *where,
+        GENTLE_GAINS,
+        receiver=noise,
+        seed=module.SEED,
+        arrival_radius=module.RADIUS,
+        **options,
+    )
+    off = np.degrees(abs(ends.heading_error)).max()
+    return f"stops up to {100 * ends.distance.max():.0f} cm and {off:.0f}° off"
+
+
+def _printed() -> str:
+    start, goal, gains, _ = paper.outdoor()
+    options = {"method": "continuous"}
+    blue, pink = (_end(start, goal, gains, law=law, **options) for law in ("corrected", "printed"))
+    return f"Blue stops after {blue} off its heading, pink stops after {pink} off its heading"
+
+
+def _crooked() -> str:
+    module = sys.modules["wmrbook.stages.crooked_compass"]
+    where, law = (module.START, module.GOAL, GENTLE_GAINS), module.misled
+    run = simulate(*where, law=law, method="arc", dt=module.DT)
+    return f"stops {100 * run.rho[-1]:.1f} cm from its goal, {off_heading(run):.0f}° off"
+
+
+def _race() -> str:
+    module = sys.modules["wmrbook.stages.race_of_laws"]
+    options = {"method": "arc", "dt": module.DT, "wheels": module.WHEELS}
+    graceful, ours = (
+        _end(module.START, module.GOAL, module.TUNED[law], law=law, **options)
+        for law in ("graceful", "corrected")
+    )
+    return f"Graceful stops after {graceful} off.*The corrected law stops after {ours} off"
+
+
+def _seam() -> str:
+    module = sys.modules["wmrbook.stages.seam"]
+    around = math.radians(module.HAIR)
+    place = module.AWAY * math.cos(around), module.AWAY * math.sin(around)
+    end = _end(Pose(*place, math.pi), module.GOAL, GENTLE_GAINS, method="arc", dt=0.02)
+    return f"different sides.*Blue stops after {end}"
+
+
+TRUTHS = {
+    "late_looks": ({}, _late),
+    "noisy_fixes": ({}, _noisy),
+    "as_printed": ({}, _printed),
+    "crooked_compass": ({"arm": 0.0}, _crooked),
+    "race_of_laws": ({}, _race),
+    "seam": ({}, _seam),
+}
+
+
+def test_a_stage_says_what_wmrlib_computes(browser_page):
+    for name, (places, truth) in TRUTHS.items():
+        panel = mounted(browser_page, getattr(stages, name)(), width=620).set(**places)
+        said = browser_page.locator(".stage-words[data-on=true]").text_content()
+        said = said.replace("\N{NO-BREAK SPACE}", " ")
+        assert re.search(truth(), said), f"{name}: {said}, not {truth()}"
+        assert not panel.troubled()
