@@ -5,7 +5,7 @@ from __future__ import annotations
 from wmrbook.stages.parts import Question, Scene, Stage, gain_knobs, off_heading, paper_drive
 from wmrlib import paper, simulate
 
-ROBOTS = {"blue": "corrected", "pink": "printed"}
+ROBOTS = {"pink": "printed", "blue": "corrected"}
 
 
 def as_printed(scene: str = "near") -> Stage:
