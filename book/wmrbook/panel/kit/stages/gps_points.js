@@ -1,7 +1,7 @@
 // Chapter 1: the goal as its digits have it, on the lattice of all places that they can name.
 
 import {
-  DEGREES, driven, insetOf, insetSize, lengthText, roundBelow, stage, within, wrap, written,
+  DEGREES, driven, insetOf, insetSize, lengthText, roundBelow, stage, within, written,
 } from '../drawing.js';
 
 const MARGIN = 5, BELOW = 10; // m
@@ -14,6 +14,9 @@ const degreesOf = ([x, y], { origin, metres }) =>
 /** @type {(degrees: Point, data: any) => Point} */
 const placeOf = ([lat, lon], { origin, metres }) =>
     [(lon - origin[1]) * metres[1], (lat - origin[0]) * metres[0]];
+
+const bearingOf = (east, north) => (Math.hypot(east, north) < 1e-3 ? 'any angle'
+    : `${((Math.atan2(east, north) * DEGREES + 360) % 360).toFixed(1)}°`);
 
 export default stage('gps_points', {
   find({ start, goal, digits }, { data }) {
@@ -33,8 +36,7 @@ export default stage('gps_points', {
   say: ({ start, goal }, { count, miss }) => ({
     digits: count, miss: lengthText(miss),
     distance: written(Math.hypot(goal[0] - start[0], goal[1] - start[1]), 'm'),
-    bearing: `${((450 - wrap(Math.atan2(goal[1] - start[1], goal[0] - start[0])) * DEGREES) % 360)
-        .toFixed(1)}°`,
+    bearing: bearingOf(goal[0] - start[0], goal[1] - start[1]),
   }),
   above(pane, { start, goal }, { told, labels, steps: [north, east] }, now) {
     const side = goal[0] < start[0] ? 'right' : 'left', size = insetSize(pane, 190);
