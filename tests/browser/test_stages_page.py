@@ -17,7 +17,22 @@ from host import TRAITS, mounted
 from wmrbook import stages
 from wmrbook.panel.kit import sources
 from wmrbook.stages.parts import off_heading
-from wmrlib import GENTLE_GAINS, Pose, Receiver, paper, simulate, sweep
+from wmrlib import (
+    GENTLE_GAINS,
+    GeoPoint,
+    Pose,
+    Receiver,
+    destination_point,
+    haversine_distance,
+    initial_bearing,
+    modes,
+    paper,
+    residual,
+    simulate,
+    sweep,
+    track,
+    wheels_to_twist,
+)
 
 NAMES = sorted(set(stages.__all__) - stages.PARTS)
 UNSOUND = re.compile("NaN|undefined|Infinity|null|\\[object|\N{EN DASH}")
@@ -184,7 +199,62 @@ def _seam() -> str:
     return f"different sides.*Blue stops after {end}"
 
 
+def _digits() -> str:
+    module = sys.modules["wmrbook.stages.gps_points"]
+    origin = paper.GPS_POINT_1
+    goal = destination_point(
+        origin, math.hypot(*module.GOAL[:2]), math.atan2(module.GOAL.x, module.GOAL.y)
+    )
+    near = GeoPoint(lat=round(goal.lat, module.FIRST), lon=round(goal.lon, module.FIRST))
+    far, bearing = haversine_distance(origin, goal), math.degrees(initial_bearing(origin, goal))
+    missed = haversine_distance(goal, near)
+    return f"{far:.1f} m apart.*at {bearing:.1f}° from north.*a place {missed:.2f} m from its goal"
+
+
+def _twist() -> str:
+    v, omega = wheels_to_twist(0.3, 0.5, sys.modules["wmrbook.stages.two_wheels"].TRACK_WIDTH)
+    return f"v = {v:.3f} m/s ahead and ω = {math.degrees(omega):.1f} °/s"
+
+
+def _seen() -> str:
+    module = sys.modules["wmrbook.stages.three_numbers"]
+    run = simulate(module.START, module.GOAL, GENTLE_GAINS, method="continuous")
+    return f"stops after {run.t[-1]:.2f} s, {off_heading(run):.0f}° off its heading"
+
+
+def _downhill() -> str:
+    rises, all_park = sys.modules["wmrbook.stages.downhill"]._outcome(GENTLE_GAINS)
+    return f"{7 if all_park else '[0-6]'} of 7 park .* V {'rises' if rises else 'never rises'}"
+
+
+def _two() -> str:
+    start, goal, gains, _ = paper.outdoor()
+    theirs, yours = (
+        _end(start, goal, tried, method="continuous") for tried in (gains, GENTLE_GAINS)
+    )
+    return f"it stops after {theirs} off its heading.*it stops after {yours} off its heading"
+
+
+def _kappa() -> str:
+    module, gains = sys.modules["wmrbook.stages.two_numbers"], paper.OUTDOOR_GAINS
+    _, off = module._drive(gains)
+    sooner = "sooner" if modes(gains).slower < 1 else "no sooner"
+    return f"κ = {modes(gains).kappa:.3f} .*settles {sooner} than.* s, {off:.0f}° off"
+
+
+def _gap() -> str:
+    run = track(paper.circle, paper.CIRCLE_START, paper.CIRCLE_GAINS, duration=40.0)
+    return f"the gap is {100 * residual(run):.2f} cm"
+
+
 TRUTHS = {
+    "gps_points": ({}, _digits),
+    "two_wheels": ({}, _twist),
+    "three_numbers": ({}, _seen),
+    "downhill": ({}, _downhill),
+    "two_drives": ({}, _two),
+    "two_numbers": ({}, _kappa),
+    "moving_goal": ({}, _gap),
     "late_looks": ({}, _late),
     "noisy_fixes": ({}, _noisy),
     "as_printed": ({}, _printed),
