@@ -88,7 +88,7 @@ def test_a_page_opens_without_trouble_and_without_faults(name, scheme, opened, b
 def test_the_panel_lives_and_follows_the_colour_menu(opened):
     page = opened("explorer.html")
     values = sliders(page)
-    assert len(values) >= 4  # k_rho, k_alpha, h and at least one more
+    assert len(values) >= 3  # k_rho, k_alpha and h
     assert_slider_matters(page, values[0])
     before = settled_picture(page)
     page.locator(".theme-switch-button:visible").click(timeout=PATIENCE)
@@ -339,7 +339,7 @@ CONTROLS = "Copy|Show all code|Hide the code|Larger|Play|That's it|Just show me|
 def test_a_printed_chapter_has_no_control_no_imports_and_no_prediction_that_waits(
     site, browser, tmp_path
 ):
-    print_page(browser, site / "notebooks" / "05_pose_to_pose.html", tmp_path / "page.pdf")
+    print_page(browser, site / "notebooks" / "03_polar_coordinates.html", tmp_path / "page.pdf")
     with pypdfium2.PdfDocument(tmp_path / "page.pdf") as printed:
         lines = [
             line.strip()
@@ -351,7 +351,7 @@ def test_a_printed_chapter_has_no_control_no_imports_and_no_prediction_that_wait
     assert not [line for line in lines if re.fullmatch(f"(?:{CONTROLS}| )+", line)]
     assert not [line for line in lines if re.match(r"import |from \w+ import", line)]
     text = letters(" ".join(lines))
-    source = (ROOT / "notebooks" / "05_pose_to_pose.ipynb").read_text(encoding="utf-8")
+    source = (ROOT / "notebooks" / "03_polar_coordinates.ipynb").read_text(encoding="utf-8")
     asks = [live_of(name) for name in re.findall(r"live\.(\w+)\(", source)]
     assert asks
     for ask in filter(None, asks):
