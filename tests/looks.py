@@ -15,7 +15,20 @@ def pixels_of(picture) -> np.ndarray:
     return np.asarray(canvas.buffer_rgba())[..., :3] / 255.0
 
 
-def heading_of(dart) -> float:
-    """Where the arrowhead of a robot points, rad."""
-    tip, tail = dart.get_xy()[0], dart.get_xy()[2]
-    return math.atan2(tip[1] - tail[1], tip[0] - tail[0])
+def drawn(axes, kind) -> list:
+    """The robots, or the starts and goals ("pose"), in the order in which they were drawn."""
+    return [patch for patch in axes.patches if patch.get_gid() == kind]
+
+
+def heading_of(patch) -> float:
+    """Where a robot's nose or a goal's arrow points, rad."""
+    corners = patch.get_path().vertices
+    apart = np.hypot(*(corners - corners.mean(axis=0)).T) + 1e-3 * np.hypot(*corners.T)
+    ends = corners[np.argmax(apart)]  # the nose, or the arrow's end
+    return math.atan2(ends[1], ends[0])
+
+
+def place_of(patch) -> np.ndarray:
+    """Where its middle is, in metres."""
+    middle = patch.get_transform().transform((0.0, 0.0))
+    return patch.axes.transData.inverted().transform(middle)

@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from looks import heading_of, pixels_of
+from looks import drawn, heading_of, pixels_of, place_of
 
 import wmrlib as wmr
 from wmrbook import figures
@@ -337,8 +337,8 @@ def test_paths_and_angles_are_those_of_the_runs():
     np.testing.assert_allclose(theta.lines[0].get_ydata(), np.degrees(drive().theta))
     (axes,) = figures.path_choices({"one": WAY}, ORIGIN).figure.axes
     assert axes.get_aspect() == 1.0
-    headings = [heading_of(dart) for dart in axes.patches]  # start, end, goal
-    assert headings == pytest.approx([1.0, 0.2, 0.0])
+    assert [heading_of(it) for it in drawn(axes, "pose")] == pytest.approx([1.0, 0.0])
+    assert [heading_of(it) for it in drawn(axes, "robot")] == pytest.approx([0.2])
 
 
 def test_a_wrapped_angle_is_not_joined_across_its_jump():
@@ -370,10 +370,10 @@ def test_snapshots_show_the_robot_where_it_was_and_how_it_looked():
     moments = (0.0, 5.0, 10.0, run.t[-1])
     for axes, moment in zip(axes_of("snapshots, tall"), moments, strict=True):
         k = int(np.abs(run.t - moment).argmin())
-        poses = CASE.goal, (run.x[k], run.y[k], run.heading[k])
-        for dart, (x, y, heading) in zip(axes.patches, poses, strict=True):
-            assert heading_of(dart) == pytest.approx(math.remainder(heading, math.tau))
-            assert np.hypot(*(dart.get_xy()[[0, 2]].mean(axis=0) - [x, y])) < 2.0
+        (goal,), (robot,) = drawn(axes, "pose"), drawn(axes, "robot")
+        for patch, pose in ((goal, CASE.goal), (robot, (run.x[k], run.y[k], run.heading[k]))):
+            assert heading_of(patch) == pytest.approx(math.remainder(pose[2], math.tau))
+            np.testing.assert_allclose(place_of(patch), pose[:2], atol=1e-6)
         so_far = np.column_stack([run.x, run.y])[: k + 1]
         assert np.array_equal(axes.lines[1].get_xydata(), so_far)
         assert axes.get_aspect() == 1.0

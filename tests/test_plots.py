@@ -5,11 +5,12 @@ import math
 import re
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from looks import heading_of
+from looks import drawn, heading_of, place_of
 
 import wmrlib as wmr
 from wmrbook import face, figures
@@ -98,11 +99,29 @@ def test_path_has_equal_scales_and_the_robots_heading():
     for run, last in ((driven(), driven().heading[-1]), (turned, 1.0)):
         axes = figures.path(run).figure.axes[0]
         assert axes.get_aspect() == 1.0
-        assert len(axes.patches) == 12  # ten robots, goal and start
-        seen = [heading_of(dart) for dart in axes.patches[-3:]]
+        robots, (goal, start) = drawn(axes, "robot"), drawn(axes, "pose")
+        seen = [heading_of(it) for it in (robots[-1], goal, start)]
         assert seen == pytest.approx([last, PAPER.goal.heading, PAPER.start.heading])
-        top = axes.patches[-2].get_xy()[:, 1].max()
-        assert top < axes.get_ylim()[1] - 0.01 * np.ptp(axes.get_ylim())  # clear of the frame
+        np.testing.assert_allclose(place_of(goal), PAPER.goal[:2], atol=1e-6)
+        for robot in robots[:-1]:  # underway
+            far = np.hypot(run.x - place_of(robot)[0], run.y - place_of(robot)[1])
+            assert far.min() < 1e-6
+            assert (
+                abs(math.remainder(run.heading[far.argmin()] - heading_of(robot), math.tau)) < 1e-6
+            )
+
+
+@pytest.mark.parametrize("part", face.ROBOT)
+def test_the_robot_of_the_figures_is_that_of_the_panels(part):
+    """They are the same path: as text in the kit, as corners in matplotlib."""
+    printed = face.javascript().split(f"  {part}: ")[1].split(",\n")[0]
+    assert "".join(re.findall("'(.*?)'", printed)) == face.ROBOT[part]
+    kit = (Path(__file__).parents[1] / "book/wmrbook/panel/kit/face.js").read_text("utf-8")
+    assert printed in kit
+    corners = [float(it) for it in re.findall(r"-?[\d.]+", face.ROBOT[part])]
+    shape = style.icon(part)
+    moves = shape.vertices[shape.codes != style.Path.CLOSEPOLY]
+    np.testing.assert_array_equal(moves.ravel(), corners)
 
 
 SHARED = "path", "start", "goal", "rho", "alpha", "theta", "h", "V"

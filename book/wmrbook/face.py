@@ -9,6 +9,7 @@ or a label says too.
 from __future__ import annotations
 
 import re
+import textwrap
 import unicodedata
 
 COLOURS = {
@@ -34,6 +35,18 @@ COLOURS = {
 }
 LETTERS = {"rho": "1D70C", "alpha": "1D6FC", "theta": "1D703", "h": "210E", "V": "1D449"}
 """The symbols among them, as MathJax names what it draws."""
+
+TRACK = 23  # px, between the middles of its wheels
+_WHEEL = (
+    "M-6 {0} L6 {0} Q8 {0} 8 {1} L8 {2} Q8 {3} 6 {3} "
+    "L-6 {3} Q-8 {3} -8 {2} L-8 {1} Q-8 {0} -6 {0} Z"
+)
+ROBOT = {
+    "wheels": " ".join(_WHEEL.format(*(y + by for by in (0, 2, 4, 6))) for y in (-14.5, 8.5)),
+    "body": "M-11 -9 Q-13 -9 -13 -7 L-13 7 Q-13 9 -11 9 L4 9 Q9 8 15 0 Q9 -8 4 -9 Z",
+    "nose": "M5 -4 L10.5 0 L5 4 Z",
+}
+"""The robot from above, its nose to the right, as paths of SVG in px: wherever one is drawn."""
 
 FONTS = {
     "serif": '"Source Serif 4", Georgia, "Times New Roman", serif',
@@ -88,11 +101,20 @@ def css() -> str:
 
 
 def javascript() -> str:
-    """The table as a module of the panels' kit."""
+    """The table, and the robot, as a module of the panels' kit."""
     rows = "".join(f"  {role}: ['{a}', '{b}'],\n" for role, (a, b) in COLOURS.items())
     fonts = "".join(f"  {role}: '{names}',\n" for role, names in FONTS.items())
+    robot = "".join(f"  {part}: {_in_lines(path)},\n" for part, path in ROBOT.items())
     return (
         "// Printed by book/tools/kit.py from wmrbook.face: colours on light and on dark paper, "
-        "and fonts.\n"
+        "fonts, and the robot.\n"
         f"export const COLOURS = {{\n{rows}}};\nexport const FONTS = {{\n{fonts}}};\n"
+        f"export const TRACK = {TRACK}; // px, between the middles of a robot's wheels\n"
+        f"export const ROBOT = {{\n{robot}}};\n"
     )
+
+
+def _in_lines(path: str) -> str:
+    """A path as a text of JavaScript, in lines that are no longer than the others."""
+    lines = textwrap.wrap(path, 88)
+    return "'" + " '\n    + '".join(lines) + "'"

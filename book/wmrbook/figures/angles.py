@@ -12,7 +12,15 @@ from matplotlib.lines import Line2D
 from wmrbook.conventions import CONVENTIONS, translate
 from wmrbook.figures._drawing import check_count, note, panels, run_list
 from wmrbook.figures.paths import pose_at
-from wmrbook.figures.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
+from wmrbook.figures.style import (
+    COLOURS,
+    LINES,
+    Picture,
+    equal_scales,
+    new_figure,
+    pose_arrow,
+    robot,
+)
 from wmrlib.checks import instance
 from wmrlib.kinematics import Pose, polar_error, wrap_angle
 from wmrlib.runs import Trajectory
@@ -66,21 +74,20 @@ def path_choices(tracks: Mapping[str, Pose], goal: Pose) -> Picture:
     check_count("tracks", tracks, 1, len(LINES))
     figure, axes = new_figure(6.5, 5.5)
     handles, words = [], []
-    size = 0.07 * max(max(np.ptp(track.x), np.ptp(track.y)) for track in tracks.values())
     roles = "path", "y_error", "omega", "ink"
     for (label, track), style, role in zip(tracks.items(), LINES, roles, strict=False):
         axes.plot(track.x, track.y, style, color=COLOURS[role])
         path = Pose(*np.broadcast_arrays(*track))
         end = pose_at(path, -1)
-        dart(axes, pose_at(path, 0), size, "start", "start", zorder=4)
-        dart(axes, end, size, role, zorder=3)
+        pose_arrow(axes, pose_at(path, 0), "start", 0.8)
+        robot(axes, end, role)
         handles.append(Line2D([], [], color=COLOURS[role], ls=style, label=label))
         left = math.degrees(wrap_angle(end.heading - goal.heading))
         distance = math.hypot(goal.x - end.x, goal.y - end.y)
         words.append(
             f"{label}: ends {distance:.2f} m from the goal, its heading {left:z.0f} deg off"
         )
-    dart(axes, goal, 1.3 * size, "none", "goal", lw=2.0, zorder=5)
+    pose_arrow(axes, goal, zorder=3)
     above = {"loc": "upper center", "bbox_to_anchor": (0.5, 1.0 + 0.09 * len(handles))}
     axes.legend(handles=handles, frameon=False, **above)
     x, y = (np.concatenate([getattr(track, axis) for track in tracks.values()]) for axis in "xy")
@@ -121,13 +128,13 @@ def angles_over_time(
 
 def _scene(axes: Axes, pose: Pose, goal: Pose, rho: float, sight: float) -> None:
     """Robot, goal, their headings and the line of sight, with room for the angles."""
-    for at, role, name, looks in (
-        (pose, "path", "robot", {"fill": "robot"}),
-        (goal, "goal", "goal", {"fill": "white", "edge": "goal", "lw": 2.5}),
+    for at, role, name, draw in (
+        (pose, "path", "robot", robot),
+        (goal, "goal", "goal", pose_arrow),
     ):
         style = {"color": COLOURS[role], "lw": 2.0, "ls": "-"}
         _ray(axes, at, at.heading, 0.62 * rho, f"{name}'s heading", **style)
-        dart(axes, at, 0.09 * rho, zorder=5, **looks)
+        draw(axes, at, role)
         # square to the line of sight, away from the heading
         aside = sight + math.copysign(math.pi / 2, math.sin(sight - at.heading))
         offset = 36.0 * math.cos(aside), 28.0 * math.sin(aside)

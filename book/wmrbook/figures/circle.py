@@ -10,7 +10,7 @@ from matplotlib.ticker import LogLocator
 
 from wmrbook.figures._drawing import SERIES, check_series, figure_legend, note
 from wmrbook.figures.paths import play, pose_at
-from wmrbook.figures.style import COLOURS, Drive, Picture, dart, equal_scales, new_figure
+from wmrbook.figures.style import COLOURS, Drive, Picture, equal_scales, new_figure, pose_arrow
 from wmrlib.checks import real
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Trajectory
@@ -36,9 +36,8 @@ def chase(runs: Mapping[str, Trajectory]) -> Picture:
     every_x = np.concatenate([goal.x, *(run.x for run in runs.values())])
     every_y = np.concatenate([goal.y, *(run.y for run in runs.values())])
     start, target = pose_at(first, 0), pose_at(goal, 0)
-    size = 0.03 * max(np.ptp(every_x), np.ptp(every_y))
-    dart(axes, start, size, "start", zorder=4)
-    dart(axes, target, size, "white", "goal", lw=2.0, zorder=3)
+    pose_arrow(axes, start, "start", 0.8)
+    pose_arrow(axes, target, size=0.8)
     equal_scales(axes, every_x, every_y)
     inward, ha = (-12, "right") if target.x > sum(axes.get_xlim()) / 2 else (12, "left")
     note(axes, "goal at 0 s", target[:2], (inward, 0), ha=ha, va="center")

@@ -15,7 +15,7 @@ def dashboard(run: Trajectory) -> Picture:
     with_samples("run", run)
     mosaic = [["path", "v"], ["path", "omega"], ["path", "errors"], ["path", "V"]]
     figure, axes = new_figure(12.0, 6.0, mosaic=mosaic)
-    draw_path(axes["path"], run, size=0.04 * max(np.ptp(run.x), np.ptp(run.y), 1.0))
+    draw_path(axes["path"], run)
     equal_scales(axes["path"], run.x, run.y, room=0.12)
     draw_series(axes["v"], run, "v [m/s]", v="-")
     draw_series(axes["omega"], run, "omega [rad/s]", omega="-")

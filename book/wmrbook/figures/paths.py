@@ -10,7 +10,16 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from wmrbook.figures._drawing import run_list
-from wmrbook.figures.style import COLOURS, LINES, Drive, Picture, dart, equal_scales, new_figure
+from wmrbook.figures.style import (
+    COLOURS,
+    LINES,
+    Drive,
+    Picture,
+    equal_scales,
+    new_figure,
+    pose_arrow,
+    robot,
+)
 from wmrlib.checks import scalar
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.runs import Trajectory
@@ -42,9 +51,8 @@ def path(
     count, single = len(runs), len(runs) == 1
     figure, axes = new_figure(5.5, 5.5)
     x, y = np.concatenate([run.x for run in runs]), np.concatenate([run.y for run in runs])
-    size = (0.04 if single else 0.025) * max(np.ptp(x), np.ptp(y), 1.0)
     for run, style in zip(runs, LINES, strict=False):
-        draw_path(axes, run, style, robots=single, size=size)
+        draw_path(axes, run, style, robots=single)
     if labels:
         lines = [Line2D([], [], color=COLOURS["path"], ls=style) for style in LINES[:count]]
         axes.legend(lines, labels)
@@ -69,23 +77,23 @@ def _draw_end(axes: Axes, run: Trajectory, near: float) -> Axes:
     left = 0.57 if np.median(run.x) <= np.mean(axes.get_xlim()) else 0.04
     inset = axes.inset_axes([left, 0.05, 0.4, 0.4], aspect="equal")
     inset.plot(run.x, run.y, color=COLOURS["path"])
-    dart(inset, goal, 0.2 * near, "none", "goal", lw=2.0, zorder=4)
+    pose_arrow(inset, goal, size=0.8)
     inset.set(xlim=(goal.x - near, goal.x + near), ylim=(goal.y - near, goal.y + near))
     inset.set(xticks=[], yticks=[])
     inset.set_title(f"within {near:g} m")
     return inset
 
 
-def draw_path(axes: Axes, run: Trajectory, style: str = "-", *, size: float, robots: bool = True):
-    """Draw the path, the start (filled), the goal (open) and the robot on its way."""
+def draw_path(axes: Axes, run: Trajectory, style: str = "-", *, robots: bool = True) -> None:
+    """Draw the path, start and goal as arrows, and the robot on its way."""
     axes.plot(run.x, run.y, style, color=COLOURS["path"])
     way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(run.x), np.diff(run.y)))])
-    passed = np.searchsorted(way, np.linspace(0.0, 1.0, 11)[1:-1] * way[-1])
+    passed = np.searchsorted(way, np.linspace(0.0, 1.0, 7)[1:-1] * way[-1])
     for k in (*passed, -1) if robots else ():  # -1: the robot may turn where it stops
-        dart(axes, pose_at(run, k), size, "robot")
+        robot(axes, pose_at(run, k), size=0.8)
     # A goal that moves is shown where it ends.
-    dart(axes, pose_at(run.goal, -1), 1.5 * size, "none", "goal", lw=2.0, zorder=4)
-    dart(axes, pose_at(run, 0), 1.5 * size, "start", "start", zorder=4)
+    pose_arrow(axes, pose_at(run.goal, -1), zorder=3)
+    pose_arrow(axes, pose_at(run, 0), "start", 0.8, zorder=3)
     axes.set(xlabel="x [m]", ylabel="y [m]")
 
 

@@ -22,7 +22,15 @@ from wmrbook.figures._drawing import (
     pointer,
 )
 from wmrbook.figures.paths import pose_at
-from wmrbook.figures.style import COLOURS, Drive, Picture, dart, equal_scales, new_figure
+from wmrbook.figures.style import (
+    COLOURS,
+    Drive,
+    Picture,
+    equal_scales,
+    new_figure,
+    pose_arrow,
+    robot,
+)
 from wmrlib.checks import choice, real, scalar
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Trajectories, Trajectory, with_samples
@@ -98,8 +106,8 @@ def ring(paths: Mapping[str, Trajectories], goal: Pose) -> Picture:
         steps = np.hypot(np.diff(many.x), np.diff(many.y))
         axes.plot(many.x.T, many.y.T, color=COLOURS["path"], lw=1.3)
         for k in range(len(many.x)):
-            dart(axes, Pose(many.x[k, 0], many.y[k, 0], many.heading[k, 0]), 0.45, "start")
-        dart(axes, goal, 0.7, "none", "goal", lw=2.0, zorder=5)
+            robot(axes, Pose(many.x[k, 0], many.y[k, 0], many.heading[k, 0]), "start", 0.5)
+        pose_arrow(axes, goal, size=0.6)
         axes.set_title(title)
         equal_scales(axes, np.r_[many.x[:, 0], goal.x], np.r_[many.y[:, 0], goal.y], room=0.2)
         axes.set(xlabel="x [m]", ylabel="y [m]")
@@ -132,8 +140,8 @@ def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
         k = int(np.abs(run.t - moment).argmin())
         axes.plot(run.x, run.y, color=COLOURS["ink"], lw=0.8, ls=":")
         axes.plot(run.x[: k + 1], run.y[: k + 1], color=COLOURS["path"], lw=2.5)
-        dart(axes, goal, size, "none", "goal", lw=2.5, zorder=5)
-        dart(axes, pose_at(run, k), size, "robot", zorder=4)
+        pose_arrow(axes, goal, size=0.6, zorder=3)
+        robot(axes, pose_at(run, k), size=0.8)
         to_go = f"{run.rho[k]:.1f}" if run.rho[k] >= 1 else f"{run.rho[k]:.2f}"
         axes.set_title(f"{letter}) {run.t[k]:.1f} s, {to_go} m to go")
         axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")

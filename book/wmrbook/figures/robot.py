@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 
 from matplotlib.axes import Axes
-from matplotlib.patches import Arc, FancyBboxPatch, Polygon
+from matplotlib.patches import Arc, FancyBboxPatch, PathPatch
+from matplotlib.transforms import Affine2D
 
+from wmrbook import face
 from wmrbook.figures._drawing import note, pointer
-from wmrbook.figures.style import COLOURS, Picture, new_figure
+from wmrbook.figures.style import COLOURS, Picture, icon, new_figure
 from wmrlib.checks import instance, scalar
 from wmrlib.kinematics import Pose
-
-_BODY = ((0.85, 0.0), (0.55, 0.4), (-0.55, 0.4), (-0.55, -0.4), (0.55, -0.4))  # in track widths
 
 
 def coordinate_system(pose: Pose, track_width: float, wheel_radius: float) -> Picture:
@@ -126,15 +126,14 @@ def draw_robot(axes: Axes, pose: Pose, b: float, r: float, outline: str = "") ->
 
     outline: a role in COLOURS, for a robot that is only thought of.
     """
-    body = [_placed(pose, (b * ahead, b * left)) for ahead, left in _BODY]
     ink = COLOURS[outline or "ink"]
-    if outline:
-        axes.add_patch(Polygon(body, fill=False, ec=ink, lw=1.5))
-    else:
-        axes.add_patch(Polygon(body, fc=COLOURS["robot"], ec=ink, alpha=0.45))
-    corners = (r, 0.06 * b), (-r, 0.06 * b), (-r, -0.06 * b), (r, -0.06 * b)
-    for side in (0.5 * b, -0.5 * b):
-        wheel = [_placed(pose, (ahead, side + left)) for ahead, left in corners]
-        axes.add_patch(Polygon(wheel, fc=ink, zorder=3))
+    scale, turned = b / face.TRACK, Affine2D().rotate(pose.heading).translate(pose.x, pose.y)
+    body, nose = (icon(part).transformed(Affine2D().scale(scale)) for part in ("body", "nose"))
+    looks = {"fill": False, "ec": ink} if outline else {"fc": COLOURS["robot"], "ec": ink}
+    for part in (body, nose):
+        axes.add_patch(PathPatch(part.transformed(turned), lw=1.5, alpha=0.6, **looks))
+    # a wheel is 16 px long, and here as long as it is
+    wheels = icon("wheels").transformed(Affine2D().scale(r / 8.0, scale) + turned)
+    axes.add_patch(PathPatch(wheels, fc=ink, lw=0, zorder=3))
     axle = _placed(pose, (0.0, 0.5 * b)), _placed(pose, (0.0, -0.5 * b))
     axes.plot(*zip(*axle, strict=True), color=ink, lw=2.0)

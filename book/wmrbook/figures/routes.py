@@ -12,7 +12,7 @@ from wmrbook.chapters.challenge import Score, drive_cases
 from wmrbook.chapters.routes import Route
 from wmrbook.figures._drawing import legend_above, note, panels, pointer
 from wmrbook.figures.paths import play
-from wmrbook.figures.style import COLOURS, Picture, dart, equal_scales, new_figure
+from wmrbook.figures.style import COLOURS, Picture, equal_scales, new_figure, pose_arrow
 from wmrlib.checks import instance
 from wmrlib.kinematics import Pose
 
@@ -37,7 +37,7 @@ def route(driven: Route) -> Picture:
     equal_scales(axes, x, y, room=0.14)
     axes.plot(driven.x, driven.y, color=COLOURS["path"], zorder=2)
     span = np.ptp(axes.get_xlim())
-    dart(axes, driven.start, 0.025 * span, "start", zorder=5)
+    pose_arrow(axes, driven.start, "start", 0.7)
     for k, stop in enumerate(driven.stops):
         pose = Pose(*(float(field[k]) for field in way))
         _waypoint(axes, pose, k, stop, k < driven.reached, 0.075 * span)
@@ -70,9 +70,8 @@ def challenge_paths(score: Score) -> Picture:
         axes.plot(run.x, run.y, "--" if row.note else "-", color=COLOURS["path"])
         x, y = ([*getattr(run, axis), *(getattr(pose, axis) for pose in case[1:])] for axis in "xy")
         equal_scales(axes, np.array(x), np.array(y), room=0.15)
-        size = 0.04 * np.ptp(axes.get_xlim())
-        dart(axes, case.goal, size, "none", "goal", lw=1.6, zorder=4)
-        dart(axes, case.start, size, "start", lw=0.8, zorder=3)
+        pose_arrow(axes, case.goal, size=0.4)
+        pose_arrow(axes, case.start, "start", 0.4)
         end = row.note or f"{row.time:.1f} s, {row.heading_error_deg:.0f} deg off"
         axes.set_title(f"{k} {row.kind}\n{row.points:.1f} points\n{end}")
         axes.locator_params(nbins=2)

@@ -10,19 +10,19 @@ from matplotlib.patches import Circle
 from wmrbook.figures._drawing import note, pointer
 from wmrbook.figures.angles import draw_angles
 from wmrbook.figures.robot import draw_robot
-from wmrbook.figures.style import COLOURS, Picture, dart, new_figure
+from wmrbook.figures.style import COLOURS, Picture, new_figure, pose_arrow, robot
 from wmrlib.kinematics import Pose
 
 _LOOKS = {
-    "robot": {"fill": "robot"},
-    "goal": {"fill": "white", "edge": "goal", "lw": 2.5},
-    "seen": {"fill": "white", "ls": ":", "lw": 1.8},
+    "robot": (robot, "path"),
+    "goal": (pose_arrow, "goal"),
+    "seen": (robot, "ghost"),
 }
 _ENDS = {"arrow": "-|>", "span": "<|-|>"}
 _NAMED_AT = {"v": (0, -38), "^": (0, 38), ">": (58, 0), "<": (-58, 0)}
-# The alternative text, and what is drawn: a dart's x, y and heading in deg, where its name stands,
-# and its name if it has another; arrows with one end or two, from x, y to x, y, and their text;
-# lines and cables from point to point; names at x, y.
+# The alternative text, and what is drawn: a robot's or a goal's x, y and heading in deg, where its
+# name stands, and its name if it has another; arrows with one end or two, from x, y to x, y, and
+# their text; lines and cables from point to point; names at x, y.
 SCENES = {
     "two-angles": (
         "The robot faces north-west. The goal lies west of it and looks south. North is up.",
@@ -117,7 +117,9 @@ def _draw(axes: Axes, kind: str, numbers: list[float], words: list[str]) -> None
     letters = {"ha": "center", "va": "center", "fontsize": 17}
     if kind in _LOOKS:
         x, y, heading = numbers
-        dart(axes, Pose(x, y, math.radians(heading)), 0.8, zorder=5, **_LOOKS[kind])
+        draw, role = _LOOKS[kind]
+        draw(axes, Pose(x, y, math.radians(heading)), role, 1.4, zorder=5)
+        axes.plot(x, y, alpha=0.0)  # so that there is room for it
         if words:
             name = " ".join(words[1:]) or kind
             note(axes, name, (x, y), _NAMED_AT[words[0]], **letters)

@@ -1,4 +1,4 @@
-"""What all figures have in common: colours by role, line styles, axes, darts and a text.
+"""What all figures have in common: colours by role, line styles, axes, robots and a text.
 
 Colours and font are those of `wmrbook.face`, which pages, panels and slides have too.
 """
@@ -8,7 +8,6 @@ from __future__ import annotations
 import html
 import io
 import json
-import math
 import re
 from collections.abc import Sequence
 from importlib.resources import files
@@ -20,8 +19,10 @@ import numpy as np
 from matplotlib import font_manager
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Polygon
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
 from matplotlib.text import Text
+from matplotlib.transforms import Affine2D, ScaledTranslation
 
 from wmrbook import face
 from wmrbook.face import in_symbols
@@ -75,6 +76,7 @@ LINES = ("-", "--", ":", "-.")
 CROWD = 300  # shapes in one graph; more are stored as pixels, which take less room
 SVG_URL = "data:image/svg+xml,"
 FRAMES, PARTS = 120, 10_000  # of a drive that is played; places in so many parts of the picture
+_CODES = {"M": Path.MOVETO, "L": Path.LINETO, "Q": Path.CURVE3, "Z": Path.CLOSEPOLY}
 _UNUSED = re.compile(r'<!--.*?--> |(?<=<g) id="[^"]*"')
 _CROWDED = re.compile(r'<g( clip-path="[^"]*")>((?: <use [^>]*?style="([^"]*)"/>){100,}) </g>')
 _HASHED = re.compile(r"(?<=[\"#])[mp][0-9a-f]{10}\b")  # of all digits of what it names
@@ -221,13 +223,43 @@ def new_figure(width: float, height: float, rows: int = 1, mosaic=None) -> tuple
         return figure, figure.subplots(rows, sharex=True)
 
 
-def dart(axes: Axes, pose: Pose, size: float, fill: str, edge: str = "ink", **looks) -> None:
-    """Draw a pose as a dart 2 `size` long; fill and edge are roles in COLOURS, or colours."""
-    shape = np.array([[1.3, 0.0], [-0.9, 0.6], [-0.5, 0.0], [-0.9, -0.6]]) * size
-    cos, sin = math.cos(pose.heading), math.sin(pose.heading)
-    corners = shape @ np.array([[cos, sin], [-sin, cos]]) + np.array([pose.x, pose.y])
-    fill, edge = (COLOURS.get(role, role) for role in (fill, edge))
-    axes.add_patch(Polygon(corners, closed=True, fc=fill, ec=edge, **looks))
+def icon(part: str) -> Path:
+    """A part of `face.ROBOT` as a path of matplotlib, in px; it is the same above and below."""
+    numbers, codes = [], []
+    for command, given in re.findall(r"([MLQZ])([^MLQZ]*)", face.ROBOT[part]):
+        pairs = np.reshape([float(it) for it in given.split()], (-1, 2))
+        numbers += [*pairs] or [numbers[-1]]
+        codes += [_CODES[command]] * max(len(pairs), 1)
+    return Path(numbers, codes)
+
+
+def placed(axes: Axes, pose: Pose, path: Path, size: float, **looks) -> PathPatch:
+    """Draw a path in px, turned and moved to a pose; as large on every scale of the axes."""
+    turned = Affine2D().scale(size / 96.0).rotate(pose.heading)
+    middle = ScaledTranslation(pose.x, pose.y, axes.transData)
+    patch = PathPatch(path.transformed(turned), **looks)
+    patch.set_transform(axes.figure.dpi_scale_trans + middle)
+    return axes.add_patch(patch)
+
+
+def robot(axes: Axes, pose: Pose, role: str = "path", size: float = 1.0, zorder: float = 4) -> None:
+    """Draw the robot from above, 28 px long times `size`, as panels and slides do."""
+    fill, paper = COLOURS.get(role, role), COLOURS["paper"]
+    placed(axes, pose, icon("wheels"), size, fc=COLOURS["ink"], lw=0, zorder=zorder)
+    looks = {"fc": fill, "ec": paper, "lw": 1.2 * size, "gid": "robot", "zorder": zorder}
+    placed(axes, pose, icon("body"), size, **looks)
+    placed(axes, pose, icon("nose"), size, fc=paper, lw=0, zorder=zorder)
+
+
+def pose_arrow(
+    axes: Axes, pose: Pose, role: str = "goal", size: float = 1.0, zorder: float = 5
+) -> None:
+    """Draw a start or a goal: a ring with an arrow, 52 px long times `size`."""
+    looks = {"ec": COLOURS[role], "lw": 2.2 * min(size, 1.0), "zorder": zorder}
+    shaft, head = Path([(0.0, 0.0), (46.0, 0.0)]), Path([(40, -6), (52, 0), (40, 6), (40, -6)])
+    placed(axes, pose, shaft, size, fill=False, gid="pose", **looks)
+    placed(axes, pose, head, size, fc=COLOURS[role], **looks)
+    placed(axes, pose, Path.circle(radius=7.0), size, fc=COLOURS["paper"], **looks)
 
 
 def equal_scales(axes: Axes, x: np.ndarray, y: np.ndarray, room: float = 0.08) -> None:

@@ -1,4 +1,4 @@
-// Printed by book/tools/kit.py from wmrbook.face: colours on light and on dark paper, and fonts.
+// Printed by book/tools/kit.py from wmrbook.face: colours on light and on dark paper, fonts, and the robot.
 export const COLOURS = {
   paper: ['#fdfcf8', '#15191e'],
   ink: ['#1d2429', '#eef1f4'],
@@ -24,4 +24,12 @@ export const FONTS = {
   sans: '"Source Sans 3", "Source Sans Pro", system-ui, "Segoe UI", Roboto, Arial, sans-serif',
   code: '"JetBrains Mono", ui-monospace, Menlo, Consolas, monospace',
   maths: '"STIX Two Text", "Source Serif 4", "Cambria Math", Georgia, serif',
+};
+export const TRACK = 23; // px, between the middles of a robot's wheels
+export const ROBOT = {
+  wheels: 'M-6 -14.5 L6 -14.5 Q8 -14.5 8 -12.5 L8 -10.5 Q8 -8.5 6 -8.5 L-6 -8.5 Q-8 -8.5 -8 -10.5 '
+    + 'L-8 -12.5 Q-8 -14.5 -6 -14.5 Z M-6 8.5 L6 8.5 Q8 8.5 8 10.5 L8 12.5 Q8 14.5 6 14.5 L-6 '
+    + '14.5 Q-8 14.5 -8 12.5 L-8 10.5 Q-8 8.5 -6 8.5 Z',
+  body: 'M-11 -9 Q-13 -9 -13 -7 L-13 7 Q-13 9 -11 9 L4 9 Q9 8 15 0 Q9 -8 4 -9 Z',
+  nose: 'M5 -4 L10.5 0 L5 4 Z',
 };

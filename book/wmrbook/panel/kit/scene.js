@@ -2,6 +2,7 @@
 // errors as angles and a distance.
 
 import { drawAxes } from './axes.js';
+import { ROBOT } from './face.js';
 import { nearest, within } from './numbers.js';
 import { poseAt } from './runs.js';
 import {
@@ -215,10 +216,7 @@ export function drawName(ctx, view, pose, name, colours) {
  * @param {Colours} colours
  */
 export function drawRobot(ctx, [x, y], heading, colours, size = 1) {
-  const body = new Path2D('M-11-9Q-13-9-13-7V7Q-13 9-11 9H4Q9 8 15 0 9-8 4-9Z'),
-      wheels = new Path2D([-14.5, 8.5].map((side) =>
-        `M-6 ${side}h12a2 2 0 0 1 2 2v2a2 2 0 0 1-2 2h-12a2 2 0 0 1-2-2v-2a2 2 0 0 1 2-2z`)
-          .join(''));
+  const body = new Path2D(ROBOT.body);
   take(ctx, [x, y], 14 * size);
   ctx.save();
   ctx.translate(x, y);
@@ -233,15 +231,13 @@ export function drawRobot(ctx, [x, y], heading, colours, size = 1) {
   ctx.rotate(-heading);
   ctx.scale(size, size);
   ctx.fillStyle = colours.ink;
-  ctx.fill(wheels);
+  ctx.fill(new Path2D(ROBOT.wheels));
   ctx.fillStyle = colours.path;
   ctx.fill(body);
   ctx.lineWidth = 1.6;
   ctx.strokeStyle = ctx.fillStyle = colours.paper;
   ctx.stroke(body);
-  ctx.beginPath();
-  ctx.moveTo(5, -4); ctx.lineTo(10.5, 0); ctx.lineTo(5, 4); ctx.closePath();
-  ctx.fill();
+  ctx.fill(new Path2D(ROBOT.nose));
   ctx.beginPath();
   ctx.arc(-8, 0, 2.2, 0, 2 * Math.PI);
   ctx.fill();

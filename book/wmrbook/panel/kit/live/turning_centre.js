@@ -1,6 +1,6 @@
 // Two wheel speeds make a speed and a turning rate, and the point about which the robot turns.
 
-import { live, onStops, ring, twistOf, written } from '../drawing.js';
+import { TRACK, live, onStops, ring, twistOf, written } from '../drawing.js';
 
 const motion = (v, omega, centre) =>
     (omega ? `It turns about a point ${written(centre, 'm')} to its left.` : v
@@ -16,17 +16,14 @@ export default live('turning_centre', {
     given: 'A robot seen from above, with the speeds of its two wheels as arrows.',
     alt: `The robot from above, its wheels' speeds as arrows. ${motion(v, omega, centre)}`,
   } }),
-  draw({ plane }, values, { v, omega, centre, wheels }, hidden) {
+  draw({ plane }, values, { v, omega, centre, wheels }, hidden, { data: { track } }) {
     if (!hidden && omega && Math.abs(centre) < 50) {
       plane.line(ring(0, centre, Math.abs(centre)), 'ghost', { width: 1.5, dash: [4, 4] });
       plane.line([[wheels[0][0], wheels[0][1]], [0, centre], [wheels[1][0], wheels[1][1]]], 'rho',
           { width: 1.2, dash: [2, 4] });
     }
-    plane.robot([0, 0, 0]);
-    for (const [speed, side] of wheels) {
-      plane.line([[-0.14, side], [0.14, side]], 'ink', { width: 9 });
-      if (speed) plane.arrow(0, side, speed, side, 'path');
-    }
+    plane.robot([0, 0, 0], 1, { size: track / plane.pixel / TRACK }); // its own wheels are these
+    for (const [speed, side] of wheels) if (speed) plane.arrow(0, side, speed, side, 'path');
     if (!hidden && v) plane.arrow(0, 0, v, 0, 'start');
     if (hidden || !omega || centre < plane.range[2] || centre > plane.range[3]) return;
     plane.cross(0, centre, 'goal'); // over the robot that it may lie under
