@@ -106,8 +106,8 @@ def javascript() -> str:
     fonts = "".join(f"  {role}: '{names}',\n" for role, names in FONTS.items())
     robot = "".join(f"  {part}: {_in_lines(path)},\n" for part, path in ROBOT.items())
     return (
-        "// Printed by book/tools/kit.py from wmrbook.face: colours on light and on dark paper, "
-        "fonts, and the robot.\n"
+        "// Printed by book/tools/kit.py from wmrbook.face: colours on light and on "
+        "dark paper,\n// fonts, and the robot.\n"
         f"export const COLOURS = {{\n{rows}}};\nexport const FONTS = {{\n{fonts}}};\n"
         f"export const TRACK = {TRACK}; // px, between the middles of a robot's wheels\n"
         f"export const ROBOT = {{\n{robot}}};\n"

@@ -1,4 +1,5 @@
-// Printed by book/tools/kit.py from wmrbook.face: colours on light and on dark paper, fonts, and the robot.
+// Printed by book/tools/kit.py from wmrbook.face: colours on light and on dark paper,
+// fonts, and the robot.
 export const COLOURS = {
   paper: ['#fdfcf8', '#15191e'],
   ink: ['#1d2429', '#eef1f4'],
