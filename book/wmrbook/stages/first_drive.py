@@ -32,15 +32,18 @@ def first_drive(scene: str = "whole") -> Stage:
             "Two GPS points, two headings, and three numbers that you hold. Can it park? " + ENDS
         ),
         "points": Scene(
-            "The start and the goal, each with the way to face.",
+            "The start and the goal, each with its heading.",
             shows=("points",),
             still=True,
         ),
         "metres": Scene(
-            "{east} east and {north} north make *rho* = {distance}.", shows=("map",), still=True
+            "The goal lies {east} east and {north} north of the start: *rho* = {distance}.",
+            shows=("map",),
+            still=True,
         ),
         "sees": Scene(
-            "All that it sees: *rho* to the goal, *alpha* to turn, *theta* off the approach.",
+            "The robot sees three numbers: the distance *rho*, the angle *alpha* to turn, and "
+            "the angle *theta* off the approach.",
             shows=("errors",),
             until=0.6,
         ),
