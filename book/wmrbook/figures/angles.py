@@ -68,7 +68,7 @@ def draw_angles(axes: Axes, pose: Pose, goal: Pose) -> None:
 def path_choices(tracks: Mapping[str, Pose], goal: Pose) -> Picture:
     """The paths of one to four robots to one goal, each a Pose of arrays [m, rad] by its label.
 
-    The last pose of each is a filled arrow.
+    A robot stands at the last pose of each.
     """
     instance("goal", goal, Pose)
     check_count("tracks", tracks, 1, len(LINES))
@@ -93,7 +93,7 @@ def path_choices(tracks: Mapping[str, Pose], goal: Pose) -> Picture:
     x, y = (np.concatenate([getattr(track, axis) for track in tracks.values()]) for axis in "xy")
     equal_scales(axes, x, y, 0.15)
     axes.set(xlabel="x [m]", ylabel="y [m]")
-    alt = "Ways in metres, green arrow the start, open arrow the goal. "
+    alt = "Ways in metres, a green arrow is a start, the orange one the goal. "
     return Picture(figure, f"{alt}{'; '.join(words)}.")
 
 

@@ -21,7 +21,7 @@ _MARKERS = ("o", "s", "^", "D", "v")
 def chase(runs: Mapping[str, Trajectory]) -> Picture:
     """The paths of one to five runs after one moving reference, which is drawn grey and wide.
 
-    The open arrow is the goal at the first moment, the filled one the robot.
+    The orange arrow is the goal at the first moment, the green one the robot.
     """
     check_series(runs, Trajectory)
     figure, axes = new_figure(6.4, 6.4)

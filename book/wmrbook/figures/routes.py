@@ -31,7 +31,7 @@ def route(driven: Route) -> Picture:
         )
     figure, axes = new_figure(7.0, 6.6)
     way = driven.waypoints
-    start = _marker("start", COLOURS["start"], ">", COLOURS["start"])
+    start = _marker("start", COLOURS["start"], "o")
     handles = [Line2D([], [], color=COLOURS["path"], label="path"), start]
     x, y = (np.concatenate(parts) for parts in ([driven.x, way.x], [driven.y, way.y]))
     equal_scales(axes, x, y, room=0.14)
@@ -55,7 +55,7 @@ def route(driven: Route) -> Picture:
 def challenge_paths(score: Score) -> Picture:
     """The paths of all cases of a `challenge.score`, each in a panel of its own scale, in metres.
 
-    The start is a filled arrow, the goal an open one; the path of a case that got the penalty is
+    The start is a green arrow, the goal an orange one; the path of a case that got the penalty is
     dashed.
     """
     runs = drive_cases(instance("score", score, Score).gains, score.game)
@@ -81,15 +81,15 @@ def challenge_paths(score: Score) -> Picture:
     if score.reached < len(runs):
         dashed = {"color": COLOURS["path"], "ls": "--", "label": "path that got the penalty"}
         handles.append(Line2D([], [], **dashed))
-    handles.append(_marker("start", COLOURS["ink"], ">", COLOURS["start"]))
-    handles.append(_marker("goal", COLOURS["goal"], ">"))
+    handles.append(_marker("start", COLOURS["start"], "o"))
+    handles.append(_marker("goal", COLOURS["goal"], "o"))
     looks = {"ncols": len(handles), "frameon": False}
     figure.legend(handles=handles, loc="outside upper center", **looks)
     costliest = max(range(len(runs)), key=lambda k: score.cases[k].points)
     worst = score.cases[costliest]
     return Picture(
         figure,
-        f"The paths of {len(runs)} cases, the start a filled arrow and the goal an outlined one; "
+        f"The paths of {len(runs)} cases, the start a green arrow and the goal an orange one; "
         f"{score.reached} of them reached, with {score.total:.2f} points in the mean; the "
         f"costliest is case {costliest + 1}, {worst.kind}, with {worst.points:.1f} points.",
         [play(axes, run) for axes, run in zip(grid.flat, runs, strict=False)],
