@@ -5,7 +5,7 @@ import {
 } from '../drawing.js';
 
 const MARGIN = 5, BELOW = 10; // m
-const LATTICE = [-4, -3, -2, -1, 0, 1, 2, 3, 4]; // steps from the middle
+const [DENSE, WIDE] = [14, 200]; // px from one place that the digits can name to the next one
 
 // Latitude and longitude of a place on the lawn, and back.
 /** @type {(place: Point, data: any) => Point} */
@@ -14,6 +14,18 @@ const degreesOf = ([x, y], { origin, metres }) =>
 /** @type {(degrees: Point, data: any) => Point} */
 const placeOf = ([lat, lon], { origin, metres }) =>
     [(lon - origin[1]) * metres[1], (lat - origin[0]) * metres[0]];
+
+// Where they are neither too close for the lawn nor too far apart; else a corner shows them.
+const showsLattice = (pane, step) => within(step / pane.pixel, DENSE, WIDE) === step / pane.pixel;
+/**
+ * @param {Pane} pane @param {Point} place @param {Point} steps @param {any} range
+ * @param {(place: Point) => Point} at
+ */
+function lattice(pane, [x, y], [east, north], [left, right, bottom, top], at) {
+  for (let i = Math.ceil((left - x) / east); x + i * east < right; i += 1)
+    for (let j = Math.ceil((bottom - y) / north); y + j * north < top; j += 1)
+      pane.dot(...at([x + i * east, y + j * north]), 'soft', { size: 2.5 });
+}
 
 const bearingOf = (east, north) => (Math.hypot(east, north) < 1e-3 ? 'any angle'
     : `${((Math.atan2(east, north) * DEGREES + 360) % 360).toFixed(1)}°`);
@@ -38,30 +50,32 @@ export default stage('gps_points', {
     distance: written(Math.hypot(goal[0] - start[0], goal[1] - start[1]), 'm'),
     bearing: bearingOf(goal[0] - start[0], goal[1] - start[1]),
   }),
-  above(pane, { start, goal }, { told, labels, steps: [north, east] }, now) {
-    const side = goal[0] < start[0] ? 'right' : 'left', size = insetSize(pane, 190);
-    const beside = 24 + 10 * now.size + within((told[0] - goal[0]) / pane.pixel, 0, 120); // px
+  draw(pane, values, { told, steps: [north, east], count }) {
+    if (!showsLattice(pane, north)) return;
+    lattice(pane, told, [east, north], pane.range, (place) => place);
+    pane.text(`what ${count} digits can name`, ...pane.view.toWorld(14, 18),
+        { role: 'soft', size: 13, fixed: true });
+  },
+  above(pane, { start, goal }, { told, labels, steps: [north, east] }, { size }) {
+    const beside = 24 + 10 * size + within((told[0] - goal[0]) / pane.pixel, 0, 120); // px
     for (const row of [0, 1]) {
       const [first, last] = labels.map((label) => `${label[row]}° ${row ? 'E' : 'N'}`),
           dy = 8 - 18 * row;
       pane.text(first, start[0], start[1], { role: 'start', dx: -24, dy, align: 'right' });
       pane.text(last, goal[0], goal[1], { role: 'goal', dx: beside, dy });
     }
-    pane.cross(told[0], told[1], 'rising', 5);
-    // the goal and the places round it that these digits can name
-    const wide = roundBelow(4.6 * north), tall = wide * size.height / size.width,
-        inset = insetOf(pane, side, size, [goal[0] - wide / 2, goal[0] + wide / 2],
-          [goal[1] - tall / 2, goal[1] + tall / 2]);
-    const { at } = inset;
+    if (showsLattice(pane, north)) return;
+    const { width, height } = insetSize(pane, 190), side = goal[0] < start[0] ? 'right' : 'left',
+        wide = roundBelow(4.6 * north), tall = wide * height / width;
+    const range = [goal[0] - wide / 2, goal[0] + wide / 2, goal[1] - tall / 2, goal[1] + tall / 2],
+        inset = insetOf(pane, side, { width, height }, range.slice(0, 2), range.slice(2));
     inset.within(() => {
-      for (const i of LATTICE)
-        for (const j of LATTICE)
-          pane.dot(...at([told[0] + i * east, told[1] + j * north]), 'soft', { size: 2.5 });
-      pane.line([at(goal), at(told)], 'rising', { width: 3 });
-      pane.dot(...at(goal), 'goal', { hollow: true });
-      pane.dot(...at(told), 'path', { size: 5 });
+      lattice(pane, told, [east, north], range, inset.at);
+      pane.line([goal, told].map(inset.at), 'rising', { width: 3 });
+      pane.dot(...inset.at(goal), 'goal', { hollow: true });
+      pane.dot(...inset.at(told), 'path', { size: 5 });
     });
-    pane.text(`${lengthText(wide, 1)} wide`, ...at([goal[0], goal[1] - tall / 2]),
+    pane.text(`${lengthText(wide, 1)} wide`, ...inset.at([goal[0], range[2]]),
         { role: 'soft', dy: 12, align: 'center', size: 13, fixed: true });
   },
 });

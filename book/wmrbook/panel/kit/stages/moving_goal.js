@@ -13,7 +13,7 @@ export default stage('moving_goal', {
   },
   look({ start }, found, { data: { radius } }) {
     const xs = [start[0], 0, -2 * radius], ys = [start[1], radius, -radius];
-    return [Math.min(...xs) - MARGIN, Math.min(...ys) - MARGIN, Math.max(...xs) + MARGIN,
+    return [Math.min(...xs) - MARGIN, Math.min(...ys) - MARGIN, Math.max(...xs) + 2 * MARGIN,
       Math.max(...ys) + MARGIN];
   },
   say: (values, { gap }) => ({ gap: gap < 1e-4 ? 'less than 0.1 mm' : lengthText(gap) }),
