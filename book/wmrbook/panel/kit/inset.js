@@ -2,8 +2,7 @@
 
 import { ahead } from './numbers.js';
 import { inside } from './surface.js';
-
-const ROBOT = 0.6 / 27; // m, a pixel of its drawing
+import { sizeAt } from './scene.js';
 
 /**
  * Draws the frame; `at` gives the place in the large picture for one in the small one, and
@@ -38,7 +37,7 @@ export const insetSize = ({ box }, most) =>
 export function goalFromNear(pane, goal, robots, reach, most = 130) {
   const { width, height } = insetSize(pane, most), side = Math.min(width, height), [x, y] = goal;
   const inset = insetOf(pane, 'left', { width: side, height: side }, [x - reach, x + reach],
-    [y - reach, y + reach]), size = side / 2 / reach * ROBOT;
+    [y - reach, y + reach]), size = sizeAt(side / 2 / reach);
   inset.within(() => {
     for (const [pose, role, share] of robots)
       pane.robot([...inset.at(pose), pose[2]], share, { size, role });

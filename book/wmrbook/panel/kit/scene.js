@@ -209,6 +209,9 @@ export function drawName(ctx, view, pose, name, colours) {
       { colour: colours[name], weight: 600, size: 14, align: first[2], or });
 }
 
+// How large a robot 0.6 m long is drawn, which has 27 px, where a metre has so many.
+export const sizeAt = (scale) => scale * 0.6 / 27;
+
 /**
  * The robot from above: two wheels, a body with a nose, the castor's lid, and a shadow. It is 27 px
  * long, times `size`.

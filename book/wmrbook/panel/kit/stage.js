@@ -10,13 +10,13 @@ import { paneOf } from './board.js';
 import { putGains } from './gains.js';
 import { putSymbol } from './symbols.js';
 import { repainted, sizeOf } from './surface.js';
+import { sizeAt } from './scene.js';
 import { widget } from './widget.js';
 import { within } from './numbers.js';
 import { wrap } from './model.js';
 
 const DRIVE = 4000, FLIGHT = 1100; // ms: a drive, and the camera's way from one scene to the next
 const FOOT = 40; // px below, for the buttons and the scale
-const ROBOT = 0.6, ICON = 27; // m and px, the robot's length and that of its drawing
 const NEAR = 1.25, MARGIN = 5; // m round the goal seen from near, and round all of a drive
 const PARKED = 2 / DEGREES; // rad off, which nobody sees
 const ease = (share) => share * share * (3 - 2 * share);
@@ -243,7 +243,7 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
       lawn: true, alt: '' });
     view = pane.view;
     const state = values(), { start, goal } = state, it = scene();
-    const size = Math.max(scale * ROBOT / ICON, 1);
+    const size = Math.max(sizeAt(scale), 1);
     const sampled = found.tracks.map((track) => sampleAt(track, at));
     const now = { time: at, done, scene: it.name, shows: it.shows, k: sampled[0].k,
       pose: sampled[0].pose, poses: sampled.map(({ pose }) => pose), size };
