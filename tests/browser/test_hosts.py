@@ -7,7 +7,7 @@ import re
 from host import HOST, TRAITS, served
 from live import chapters
 
-from wmrbook import live
+from wmrbook import stages
 from wmrbook.panel import stills
 
 # A page that nbconvert wrote has html-manager, whose models no kernel answers.
@@ -17,7 +17,7 @@ WIDTHS = "() => [...document.querySelectorAll('.wmr-still img')].map(it => it.na
 
 
 def test_in_a_page_without_a_kernel_stand_its_picture_and_where_it_moves(emptied_page):
-    page, panel = emptied_page, live.last_metres()
+    page, panel = emptied_page, stages.first_drive()
     panel._repr_mimebundle_()
     served(page)
     page.add_script_tag(content=HOST)
@@ -25,13 +25,13 @@ def test_in_a_page_without_a_kernel_stand_its_picture_and_where_it_moves(emptied
     page.locator(".wmr-still img").wait_for()
     assert page.evaluate(WIDTHS) == [700]
     text = " ".join(page.locator(".wmr-still").inner_text().split())
-    assert re.search(rf"the robot arrives after \d.* {stills.RUN_IT}$", text)
+    assert re.search(rf"It stops after \d.* {stills.RUN_IT}$", text)
 
 
 def test_a_panel_that_has_no_picture_says_there_what_to_do(emptied_page):
     served(emptied_page)
     emptied_page.add_script_tag(content=HOST)
-    emptied_page.evaluate(SHOW, live.last_metres().get_state(TRAITS))
+    emptied_page.evaluate(SHOW, stages.first_drive().get_state(TRAITS))
     emptied_page.get_by_text("Run this notebook to move what is here.").wait_for()
 
 
@@ -39,7 +39,7 @@ def test_without_javascript_a_chapter_has_the_pictures_of_its_panels(site, brows
     context = browser.new_context(java_script_enabled=False)
     page = context.new_page()
     page.goto((site / "notebooks" / f"{chapters()[4].stem}.html").as_uri())
-    images = page.locator('img[src*="still-"]')
+    images = page.locator('img[src*="still-"]')  # else run book/tools/stills.py
     assert images.count() >= 2
     for image in images.all():
         assert image.bounding_box()["width"] > 300
