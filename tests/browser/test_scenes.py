@@ -58,8 +58,8 @@ def window(results):
     yield inside["inside"]
     yield swings["late"][1] > 20.0
     yield inside["late"][1] < 1.0 < lags["late"][1]
-    yield abs(swings["poles"][0][1]) > 0.0  # it swings, where the other only lags
-    yield lags["poles"][0][1] == 0.0
+    yield swings["fan"][0] < -10 < 10 < swings["fan"][1]  # it swings, where the other only lags
+    yield min(map(abs, lags["fan"])) < 1
 
 
 def rising(results):
