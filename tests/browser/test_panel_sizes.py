@@ -42,7 +42,8 @@ SHOW = """async all => {
 WIDTH = """async width => {
     document.body.style.setProperty('--width', width);
     await frames(3);
-    while (document.querySelector('.live:not([data-settled])')) await frames(1);
+    for (let k = 0; k < 600 && document.querySelector('.live:not([data-settled])'); k += 1)
+        await frames(1);
     await frames(3);
 }"""
 HEIGHTS = "() => each(it => box(it).height)"
@@ -147,6 +148,16 @@ def test_an_arrow_that_is_hardly_turned_is_wrong(figures):
         it.get_by_role("button", name="That's it").press("Enter")
         assert it.locator(".live-verdict:visible").inner_text().startswith("No: "), name
         it.get_by_role("button", name="Try again").press("Enter")
+
+
+def test_an_arrow_begins_two_steps_of_a_key_beside_any_answer(figures):
+    close = """async () => {
+        const { TOLERANCE, begunAt } = await import('/kit/gate.js');
+        const { wrap } = await import('/kit/model.js');
+        return Array.from({ length: 721 }, (_, k) => (k - 360) * Math.PI / 360).filter(key =>
+            Math.abs(wrap(begunAt(key) - key)) < TOLERANCE + Math.PI / 18);
+    }"""
+    assert figures.evaluate(close) == []
 
 
 def test_the_explorer_fits_the_screen_and_its_gains_are_long_and_below_the_picture(emptied_page):

@@ -10,12 +10,12 @@ import { within } from './numbers.js';
 import { wrap } from './model.js';
 
 const SKIPPED = 'skipped'; // a guess that is nobody's
-const TOLERANCE = 20 / DEGREES; // of an arrow that was turned rightly
+export const TOLERANCE = 20 / DEGREES; // of an arrow that was turned rightly
 const DIAL = 62; // px, the length of the arrow
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 
 /** Where an arrow points before anybody turns it: well beside the answer. @param {number} key */
-const begunAt = (key) => [0, Math.PI, Math.PI / 2, -Math.PI / 2]
+export const begunAt = (key) => [0, Math.PI, Math.PI / 2, -Math.PI / 2]
     .find((angle) => Math.abs(wrap(angle - key)) > 3 * TOLERANCE);
 
 /** A sentence for each answer, and for none. @returns {Record<string, string>} */
