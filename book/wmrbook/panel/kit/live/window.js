@@ -71,6 +71,7 @@ export default live('window', {
           : x < 0.5 ? [0, 20, 'left'] : [15, -3, 'left'];
       plane.text(name, x, y, { dx, dy, size: 13, align });
     }
+    plane.dot(kappa, h, hidden ? 'path' : role, { size: 8 });
     path.path(run.x, run.y);
     path.pose(GOAL, 'goal');
     coming.forEach((k) => path.robot(poseAt(run, k), 0.4));
@@ -78,7 +79,6 @@ export default live('window', {
     if (hidden) return;
     path.text(`its heading swings over ${(fan[1] - fan[0]).toFixed(0)}°`, 0.8, -0.85,
         { role, size: 15, weight: 600, align: 'right', fixed: true });
-    plane.dot(kappa, h, role, { size: 8 });
   },
   handles: ({ kappa, h }, found, { data: { named } }) => [{
     id: 'point', pane: 'plane', at: [kappa, h], says: `kappa ${written(kappa)}, h ${written(h)}`,
