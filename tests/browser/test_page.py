@@ -282,11 +282,11 @@ def test_each_chapter_can_be_downloaded_as_a_notebook(site):
 
 
 def test_a_papers_equation_that_is_mentioned_leads_to_where_it_is_derived(opened):
-    page = opened("notebooks/00_from_gps_to_a_parked_robot.html")
-    page.get_by_role("link", name="(24)", exact=True).first.click(timeout=PATIENCE)
-    page.wait_for_url("**/10_the_audit.html#paper-24", timeout=PATIENCE)
-    page.locator("div.math:has(#paper-24) svg").first.wait_for(timeout=PATIENCE)
-    assert "paper 24" in page.locator("div.math:has(#paper-24)").text_content()
+    page = opened("notebooks/08_sampling_and_wheels.html")
+    page.get_by_role("link", name="(22)", exact=True).first.click(timeout=PATIENCE)
+    page.wait_for_url("**/04_lyapunov.html#paper-22", timeout=PATIENCE)
+    page.locator("div.math:has(#paper-22) svg").first.wait_for(timeout=PATIENCE)
+    assert "paper 22" in page.locator("div.math:has(#paper-22)").text_content()
 
 
 def test_a_page_has_the_figures_of_its_theme(opened, browser_page):
