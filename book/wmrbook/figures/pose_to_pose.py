@@ -188,7 +188,7 @@ def block_diagram(time_step: float, times_faster: float) -> Picture:
     """
     time_step = scalar("time_step", time_step, above=0.0)
     inner = time_step / scalar("times_faster", times_faster, above=0.0)
-    figure, axes = new_figure(9.0, 5.2)
+    figure, axes = new_figure(8.6, 5.2)
     axes.set_axis_off()
     axes.set(xlim=(0.0, 9.0), ylim=(0.0, 5.0))
     centred = {"ha": "center", "va": "center"}

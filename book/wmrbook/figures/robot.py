@@ -78,7 +78,7 @@ def robot_loops(time_step: float, times_faster: float) -> Picture:
     """
     time_step = scalar("time_step", time_step, above=0.0)
     inner = time_step / scalar("times_faster", times_faster, above=0.0)
-    figure, axes = new_figure(9.0, 5.0)
+    figure, axes = new_figure(8.6, 5.0)
     axes.set_axis_off()
     axes.set(xlim=(0.0, 10.2), ylim=(0.0, 5.6))
     middle = {"ha": "center", "va": "center"}
