@@ -57,7 +57,7 @@ def lever_arm(arm: float, bias: float) -> Picture:
     arm: the antenna's distance ahead of the robot's middle, m; bias: to the left, up to 0.5.
     """
     arm, bias = scalar("arm", arm, above=0.0), scalar("bias", bias, low=-0.5, high=0.5)
-    figure, (spin, dock) = panels(1, 2, 9.0, 4.2)
+    figure, (spin, dock) = panels(1, 2, 8.6, 4.2)
     turned = np.linspace(0.0, 2 * math.pi, 73)
     spin.plot(arm * np.cos(turned), arm * np.sin(turned), color=COLOURS["path"])
     spin.plot(arm * np.cos(turned[::9]), arm * np.sin(turned[::9]), "o", color=COLOURS["path"])

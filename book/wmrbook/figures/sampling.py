@@ -36,7 +36,7 @@ def time_steps(
     run that did not arrive.
     """
     check_count("gains", gains, 2, 2)
-    figure, rows = new_figure(9.0, 6.6, rows=2)
+    figure, rows = new_figure(8.6, 6.6, rows=2)
     texts = []
     for axes, (name, tried) in zip(rows, gains.items(), strict=True):
         truth = _heading_left(arrival(simulate(start, goal, tried, method="continuous")))
