@@ -66,7 +66,7 @@ def test_a_figure_fills_the_text_column_with_letters_of_nine_points(size):
     shown.svg()  # which lays it out
     width = figure.get_figwidth()
     smallest = min(text.get_fontsize() for text in figure.findobj(style.Text))
-    assert 12.0 <= smallest * 690 / (72 * width) <= 17.0
+    assert 12.0 <= smallest * 690 / (72 * width) <= 18.0
     bottom, top = axes.get_ylim()
     assert bottom < 0.0 < 5.0 < top
     assert axes.get_position().width > 0.8  # equal scales, over all of the width
