@@ -27,8 +27,27 @@ def two_wheels(scene: str = "arc") -> Stage:
     )
     scenes = {
         "arc": Scene(f"{TWIST}Can it move sideways?"),
-        "straight": Scene(f"{TWIST}It {{does}}.", to={"left": 0.4, "right": 0.4}),
+        "straight": Scene(
+            f"Both wheels roll alike, so it drives straight on. {TWIST}",
+            to={"left": 0.4, "right": 0.4},
+        ),
+        "turn": Scene(
+            "In 3 s the left wheel rolls {left_way} and the right one {right_way}. "
+            "The robot has turned by {turned}.",
+            shows=("turn",),
+        ),
         "spot": Scene(f"{TWIST}It {{does}}.", to={"left": -0.3, "right": 0.3}),
+        "velocity": Scene(
+            "The robot faces {heading} from east and drives at {speed}: {east} to the east and "
+            "{north} to the north.",
+            shows=("velocity",),
+            still=True,
+        ),
+        "chord": Scene(
+            "In 3 s it drives an arc of {arc}. The chord is {chord} long, and turned by half the "
+            "turn, {half}. A straight step ends {miss} away.",
+            shows=("chord",),
+        ),
         "ask": Scene(
             f"{TWIST}It {{does}}.",
             still=True,
@@ -40,8 +59,10 @@ def two_wheels(scene: str = "arc") -> Stage:
             ),
         ),
         "aside": Scene(
-            "The arc, its mirror image, and straight back. The robot ends {aside} to its side.",
+            "Forward, left, back, right. It faces as before, and it stands {aside} to its side "
+            "and {ahead} ahead.",
             shows=("moves",),
+            to={"left": 0.15, "right": 0.25},
         ),
     }
     knobs = {

@@ -85,7 +85,7 @@ def _flat_error(lat: float, far: float) -> float:
 
 @exercise
 def odometry(path: Callable, ends: Any = None) -> str:
-    """2.2: path(log, width, dt), a log of (left, right) in m/s, returns (x, y, heading).
+    """2.4: path(log, width, dt), a log of (left, right) in m/s, returns (x, y, heading).
 
     `ends` is where the log of the exercise ends, and where Euler's step says it does: x, y, x, y.
     """
