@@ -121,6 +121,8 @@ CASES = {
     "spherical_triangle": lambda: figures.spherical_triangle(
         wmr.GeoPoint(lat=5.0, lon=0.0), wmr.GeoPoint(lat=35.0, lon=70.0)
     ),
+    "chord": lambda: figures.chord(math.radians(60)),
+    "curvature_radii": lambda: figures.curvature_radii(30.0, 0.3),
     "sphere_error_map": lambda: figures.sphere_error_map(paper.GPS_POINT_1, math.radians(9.6274)),
     "coordinate_system": lambda: figures.coordinate_system(
         wmr.Pose(2.0, 1.5, math.radians(35.0)), 1.0, 0.25
@@ -212,6 +214,8 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     "spherical_triangle": lambda: [
         "c = 70.8 deg long and leaves point 1 at the bearing br = 54.6 deg"
     ],
+    "chord": lambda: ["60.0 deg apart", "is 1.000 long and the arc 1.047", "sin(c/2) = 0.500"],
+    "curvature_radii": lambda: ["its length N is 1.07 equatorial", "its radius M is 0.60"],
     "sphere_error_map": lambda: [
         "from -0.45 % at the poles to +0.56 % northwards on the equator, with -0.11 % eastwards"
     ],
@@ -447,6 +451,8 @@ BAD = [
     ("a GeoPoint is needed, not a tuple", "local_map", ((33, 44), HERE)),
     ("a GeoPoint is needed, not a tuple", "spherical_triangle", ((5, 0), HERE)),
     ("a GeoPoint is needed, not a tuple", "sphere_error_map", ((5, 0), 0.0)),
+    (r"angle = 0\.0 is not allowed", "chord", (0.0,)),
+    (r"lat = 90\.0 is not allowed", "curvature_radii", (90.0, 0.3)),
     (r"track_width = 0\.0 .* above 0", "coordinate_system", (ORIGIN, 0.0, 0.1)),
     (r"wheel_radius = -0\.1 .* above 0", "coordinate_system", (ORIGIN, 1.0, -0.1)),
     ("tracks has 0 entries, .* 1 to 4 are needed", "path_choices", ({}, ORIGIN)),

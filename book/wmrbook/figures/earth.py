@@ -11,7 +11,7 @@ from matplotlib.patches import Circle
 from wmrbook.ellipsoid import sphere_error
 from wmrbook.figures._drawing import note
 from wmrbook.figures.style import COLOURS, Picture, equal_scales, new_figure
-from wmrlib.checks import instance
+from wmrlib.checks import instance, scalar
 from wmrlib.geodesy import (
     EARTH_RADIUS_M,
     GeoPoint,
@@ -69,7 +69,7 @@ def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:
         axes.plot(x, y, style, color=colour, lw=3.0)
         note(axes, name, (x[50], y[50]), offset, ha=side, fontsize=14, color=colour)
     for corner, first, second, name, offset in (
-        (pole, a, b, "$\\Delta\\mathrm{long}$", (0, -24)),
+        (pole, a, b, "$\\Delta\\mathrm{lon}$", (0, -24)),
         (a, pole, b, "br", (14, 22)),
     ):
         turns = np.unwrap([initial_bearing(corner, first), initial_bearing(corner, second)])
@@ -98,6 +98,91 @@ def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:
         "their lengths are 90 deg minus the latitudes. The third side joins the points; "
         f"it is c = {length:.1f} deg long and leaves point 1 at the bearing br = {bearing:.1f} deg "
         "from its meridian.",
+    )
+
+
+def chord(angle: float) -> Picture:
+    """The chord of an angle c [rad] at the centre of a circle of radius 1, and half of it."""
+    half = 0.5 * scalar("angle", angle, above=0.0, high=math.pi)
+    figure, axes = new_figure(7.5, 4.4)
+    turn = np.linspace(-0.2, 0.2, 61) + np.linspace(-half, half, 61)
+    axes.plot(np.sin(turn), np.cos(turn), color=COLOURS["ink"], lw=1.0)
+    arc = np.linspace(-half, half, 61)
+    axes.plot(np.sin(arc), np.cos(arc), color=COLOURS["path"], lw=3.0)
+    ends = np.array([-math.sin(half), math.sin(half)]), np.full(2, math.cos(half))
+    axes.plot([ends[0][0], 0.0], [ends[1][0], 0.0], color=COLOURS["ink"])
+    axes.plot([ends[0][1], 0.0], [ends[1][1], 0.0], color=COLOURS["ink"])
+    axes.plot([0.0, 0.0], [0.0, math.cos(half)], "--", color=COLOURS["soft"], lw=1.2)
+    axes.plot(*ends, "--", color=COLOURS["goal"])
+    axes.plot([0.0, ends[0][1]], ends[1], color=COLOURS["goal"], lw=3.5)
+    size = 0.06
+    corner = np.array([[size, size, 0.0], math.cos(half) - np.array([0.0, size, size])])
+    axes.plot(*corner, color=COLOURS["soft"], lw=1.2)
+    for first, last, name, side in ((0.0, half, "$c/2$", 1), (-half, 0.0, "$c/2$", -1)):
+        turn = np.linspace(first, last, 31)
+        axes.plot(0.25 * np.sin(turn), 0.25 * np.cos(turn), color=COLOURS["omega"])
+        at = 0.33 * math.sin(side * half / 2), 0.33 * math.cos(half / 2)
+        note(axes, name, at, ha="center", va="center", color=COLOURS["omega"])
+    axes.plot(*ends, "o", ms=8, color=COLOURS["ink"])
+    right = ends[0][1], ends[1][1]
+    note(axes, "point 1", (ends[0][0], ends[1][0]), (-12, -2), ha="right")
+    note(axes, "point 2", right, (12, -2))
+    note(axes, "arc: $c$", (0.0, 1.0), (0, 8), ha="center", color=COLOURS["path"])
+    middle = 0.5 * right[0], right[1]
+    note(axes, "$\\sin(c/2)$", middle, (4, -22), ha="center", color=COLOURS["goal"])
+    note(axes, "1", (0.5 * right[0], 0.5 * right[1]), (10, -4))
+    note(axes, "the Earth's centre", (0.0, 0.0), (12, -4))
+    axes.set(xlim=(-1.3, 1.3), ylim=(-0.08, 1.16), aspect="equal")
+    axes.set_axis_off()
+    return Picture(
+        figure,
+        "A slice through the centre of a circle of radius 1 and two points on it, "
+        f"c = {math.degrees(2 * half):.1f} deg apart. The chord between them is "
+        f"{2 * math.sin(half):.3f} long and the arc {2 * half:.3f}. A dashed line from the centre "
+        f"halves both; half of the chord is sin(c/2) = {math.sin(half):.3f}.",
+    )
+
+
+def curvature_radii(lat: float, flattening: float) -> Picture:
+    """The two radii of curvature at a latitude [deg] of an ellipse that is flattened more."""
+    lat = scalar("lat", lat, above=0.0, high=89.0)
+    flat = scalar("flattening", flattening, above=0.0, high=0.5)
+    normal = np.array([math.cos(math.radians(lat)), math.sin(math.radians(lat))])
+    share = flat * (2.0 - flat)
+    w = math.sqrt(1.0 - share * normal[1] ** 2)
+    across, along = 1.0 / w, (1.0 - share) / w**3
+    point = across * normal * np.array([1.0, 1.0 - share])
+    middle, foot = point - along * normal, point - across * normal
+    figure, axes = new_figure(7.5, 4.8)
+    turn = np.linspace(0.0, 2.0 * np.pi, 241)
+    axes.plot(np.cos(turn), (1.0 - flat) * np.sin(turn), color=COLOURS["ink"])
+    axes.plot([0.0, 0.0], [-1.0, 1.0], "-.", color=COLOURS["soft"], lw=1.2)
+    axes.plot([-1.0, 1.15], [0.0, 0.0], ":", color=COLOURS["soft"], lw=1.2)
+    near = np.radians(lat) + np.linspace(-0.9, 0.9, 61)
+    fit = middle[:, None] + along * np.array([np.cos(near), np.sin(near)])
+    axes.plot(*fit, "--", color=COLOURS["goal"])
+    for end, role, wide in ((foot, "path", 2.0), (middle, "goal", 7.0)):
+        axes.plot(*np.transpose([point, end]), color=COLOURS[role], lw=wide, zorder=4.0 - wide / 9)
+        axes.plot(*end, "o", ms=7, color=COLOURS[role], zorder=5)
+    axes.plot(*point, "o", ms=9, color=COLOURS["ink"], zorder=5)
+    note(axes, "point", point, (10, 4))
+    note(axes, "$M$", (point + middle) / 2, (-8, 12), ha="center", color=COLOURS["goal"])
+    note(axes, "$N$", (foot + middle) / 2, (12, -12), ha="center", color=COLOURS["path"])
+    note(axes, "pole", (0.0, 1.0 - flat), (8, 6))
+    note(axes, "equator", (-1.0, 0.0), (8, 6))
+    level = foot[0] - foot[1] * normal[0] / normal[1]  # where the normal crosses the equator
+    turn = np.linspace(0.0, math.radians(lat), 31)
+    axes.plot(level + 0.2 * np.cos(turn), 0.2 * np.sin(turn), color=COLOURS["omega"])
+    at = level + 0.2 * math.cos(turn[15]), 0.2 * math.sin(turn[15])
+    note(axes, "lat", at, (6, -2), color=COLOURS["omega"])
+    axes.set(xlim=(-1.1, 1.5), ylim=(-0.75, 0.95), aspect="equal")
+    axes.set_axis_off()
+    return Picture(
+        figure,
+        f"An ellipse through the poles, flattened by {flat:.2g} so that one sees it. From a point "
+        f"at latitude {lat:.0f} deg the normal leads down to the axis: its length N is "
+        f"{across:.2f} equatorial radii. A circle that fits the ellipse at the point has its "
+        f"centre on the same normal, and its radius M is {along:.2f}.",
     )
 
 

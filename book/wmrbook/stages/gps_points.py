@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 
+from wmrbook.ellipsoid import sphere_error
 from wmrbook.live.parts import Knob
 from wmrbook.stages.parts import Question, Scene, Stage, paper_drive
 from wmrlib import GENTLE_GAINS, GeoPoint, Pose, local_position, paper
 
 FEWEST, MOST, FIRST = 3, 8, 4  # digits after the point
 CENTIMETRE = 0.01  # m
-GOAL = Pose(9.7, 57.2, paper.GOAL_HEADING)  # the paper's has six digits, and no more
+GOAL = Pose(9.7, 57.25, paper.GOAL_HEADING)  # with six digits it is the paper's
+PRINTED = {"digits": 6}  # as the paper has them
 TOLD = "{digits} digits after the point lead the robot to a place {miss} from its goal"
 
 
@@ -28,7 +30,13 @@ def gps_points(scene: str = "whole") -> Stage:
             "Two GPS points, {distance} apart: the goal lies at {bearing} from north, clockwise. "
             f"{TOLD}."
         ),
-        "near": Scene(f"The last metre. {TOLD}.", look="near", to={"digits": 5}),
+        "degrees": Scene(
+            "The latitudes differ by {dlat}, which is {north}. The longitudes differ by {dlon}, "
+            "which is {east}.",
+            shows=("legs",),
+            to=PRINTED,
+            still=True,
+        ),
         "ask": Scene(
             f"{TOLD}.",
             look="near",
@@ -41,6 +49,19 @@ def gps_points(scene: str = "whole") -> Stage:
                 {"digits": enough},
             ),
         ),
+        "line": Scene(
+            "The line to the goal is {rho} long, and it begins at {course} from north, clockwise.",
+            shows=("line",),
+            to=PRINTED,
+            still=True,
+        ),
+        "ellipsoid": Scene(
+            "The last metre. On the ellipsoid the goal lies {gap} from where the sphere puts it.",
+            look="near",
+            shows=("ellipsoid",),
+            to={"digits": MOST},
+            still=True,
+        ),
     }
     digits = Knob(FIRST, FEWEST, MOST, 1, "digits of the coordinates", label="digits")
     east, _ = local_position(origin, GeoPoint(lat=origin.lat, lon=origin.lon + 0.001))
@@ -48,6 +69,7 @@ def gps_points(scene: str = "whole") -> Stage:
     data = {
         "origin": [origin.lat, origin.lon],
         "metres": [1000 * north, 1000 * east],  # a degree of latitude, of longitude
+        "curved": [1 / (1 + sphere_error(origin.lat, br)) for br in (math.pi / 2, 0.0)],
         "gains": GENTLE_GAINS._asdict(),
     }
     hands = ("goal",)

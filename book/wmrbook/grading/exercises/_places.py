@@ -19,7 +19,7 @@ from wmrlib.kinematics import PolarError, Pose, advance, pose_from_polar, wheels
 
 @exercise
 def third_formula(distance: Callable) -> str:
-    """1.2: distance(lat_1, lon_1, lat_2, lon_2), degrees in, metres out."""
+    """1.4: distance(lat_1, lon_1, lat_2, lon_2), degrees in, metres out."""
     scales = []
     for a, b in _earth.places(20):
         value, right = _earth.between(distance, a, b), earth.haversine_distance(a, b)
@@ -52,7 +52,7 @@ def third_formula(distance: Callable) -> str:
 
 @exercise
 def campus(answer: Any) -> str:
-    """1.3: the decimals, and how far the flat map may reach at the paper's latitude and at 60."""
+    """1.5: the decimals, and how far the flat map may reach at the paper's latitude and at 60."""
     decimals, *radii = numbers("`answer`", answer, 3)
     hint = "decimals are counted: a whole number, from 0 to 15, is wanted."
     expect(decimals in range(16), hint)

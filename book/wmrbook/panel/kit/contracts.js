@@ -30,7 +30,7 @@ export const CONTRACTS = {
   'stages/crooked_compass': '6a7571be',
   'stages/downhill': 'f18e95e1',
   'stages/first_drive': '092554ab',
-  'stages/gps_points': '00926cba',
+  'stages/gps_points': 'c4e051c6',
   'stages/late_looks': '2f3036d5',
   'stages/moving_goal': '6c3ae95e',
   'stages/noisy_fixes': 'd541725d',

@@ -15,6 +15,11 @@ const degreesOf = ([x, y], { origin, metres }) =>
 const placeOf = ([lat, lon], { origin, metres }) =>
     [(lon - origin[1]) * metres[1], (lat - origin[0]) * metres[0]];
 
+// The place of the same degrees on the ellipsoid, where both have other lengths.
+/** @type {(place: Point, data: any) => Point} */
+const onEllipsoid = ([x, y], { curved }) => [x * curved[0], y * curved[1]];
+const dist = ([x, y], [toX, toY]) => Math.hypot(toX - x, toY - y);
+
 // Where they are neither too close for the lawn nor too far apart; else a corner shows them.
 const showsLattice = (pane, step) => within(step / pane.pixel, DENSE, WIDE) === step / pane.pixel;
 /**
@@ -35,8 +40,10 @@ export default stage('gps_points', {
     const count = Math.round(digits), shown = (place) =>
       degreesOf(place, data).map((value) => value.toFixed(count));
     const told = placeOf(shown(goal).map(Number), data), { gains } = data;
+    const apart = shown(goal).map((value, row) =>
+      `${(Number(value) - Number(shown(start)[row])).toFixed(count)}°`);
     const run = driven({ start, goal: [...told, goal[2]], gains, arrivalRadius: 0.002 });
-    return { count, told, labels: [shown(start), shown(goal)],
+    return { count, told, apart, labels: [shown(start), shown(goal)],
       steps: data.metres.map((metres) => metres * 10 ** -count),
       miss: Math.hypot(told[0] - goal[0], told[1] - goal[1]), tracks: [{ ...run, role: 'path' }] };
   },
@@ -45,18 +52,41 @@ export default stage('gps_points', {
     return [Math.min(...xs) - MARGIN, Math.min(...ys) - BELOW, Math.max(...xs) + MARGIN,
       Math.max(...ys) + MARGIN];
   },
-  say: ({ start, goal }, { count, miss }) => ({
-    digits: count, miss: lengthText(miss),
+  say: ({ start, goal }, { count, miss, told, apart: [dlat, dlon] }, { data }) => ({
+    digits: count, miss: lengthText(miss), dlat, dlon,
+    east: written(told[0] - start[0], 'm'), north: written(told[1] - start[1], 'm'),
+    rho: written(Math.hypot(told[0] - start[0], told[1] - start[1]), 'm', 4),
+    course: bearingOf(told[0] - start[0], told[1] - start[1]),
+    gap: lengthText(dist(told, onEllipsoid(told, data))),
     distance: written(Math.hypot(goal[0] - start[0], goal[1] - start[1]), 'm'),
     bearing: bearingOf(goal[0] - start[0], goal[1] - start[1]),
   }),
-  draw(pane, values, { told, steps: [north, east], count }) {
-    if (!showsLattice(pane, north)) return;
+  draw(pane, { start }, { told, steps: [north, east], count, apart: [dlat, dlon] }, { shows }) {
+    const corner = [told[0], start[1]];
+    if (shows.includes('legs')) {
+      pane.line([start, corner, told], 'ink', { width: 1.5, dash: [6, 4] });
+      pane.text(dlon, (start[0] + corner[0]) / 2, start[1], { dy: -30, align: 'center' });
+      pane.text(dlat, told[0], (start[1] + told[1]) / 2, { dx: 10 });
+    }
+    if (shows.includes('line')) {
+      pane.line([start, [start[0], told[1]]], 'soft', { width: 1.5, dash: [6, 4] });
+      pane.text('north', start[0], told[1], { role: 'soft', dy: 10, align: 'center' });
+      pane.line([start, told], 'rho', { width: 2.5 });
+      pane.text('ρ', (start[0] + told[0]) / 2, (start[1] + told[1]) / 2,
+          { role: 'rho', dx: 12, size: 18 });
+    }
+    if (shows.length || !showsLattice(pane, north)) return;
     lattice(pane, told, [east, north], pane.range, (place) => place);
     pane.text(`what ${count} digits can name`, ...pane.view.toWorld(14, 18),
         { role: 'soft', size: 13, fixed: true });
   },
-  above(pane, { start, goal }, { told, labels, steps: [north, east] }, { size }) {
+  above(pane, { start, goal }, { told, labels, steps: [north, east] }, { size, shows }, { data }) {
+    if (shows.includes('ellipsoid')) {
+      const place = onEllipsoid(told, data);
+      pane.line([told, place], 'rising', { width: 3 });
+      pane.dot(...place, 'rising', { size: 5 });
+      pane.text('on the ellipsoid', ...place, { role: 'rising', dy: -44, align: 'center' });
+    }
     const beside = 24 + 10 * size + within((told[0] - goal[0]) / pane.pixel, 0, 120); // px
     for (const row of [0, 1]) {
       const [first, last] = labels.map((label) => `${label[row]}° ${row ? 'E' : 'N'}`),
@@ -64,7 +94,7 @@ export default stage('gps_points', {
       pane.text(first, start[0], start[1], { role: 'start', dx: -24, dy, align: 'right' });
       pane.text(last, goal[0], goal[1], { role: 'goal', dx: beside, dy });
     }
-    if (showsLattice(pane, north)) return;
+    if (shows.length || showsLattice(pane, north)) return;
     const { width, height } = insetSize(pane, 190), side = goal[0] < start[0] ? 'right' : 'left',
         wide = roundBelow(4.6 * north), tall = wide * height / width;
     const range = [goal[0] - wide / 2, goal[0] + wide / 2, goal[1] - tall / 2, goal[1] + tall / 2],
