@@ -94,26 +94,27 @@ def test_a_proof_is_run_broken_stopped_and_mended_in_the_page(site, opened):
     page = opened(LYAPUNOV)
     cells = sources(page)
     last = len(cells) - 1
-    model = next(i for i, source in enumerate(cells) if "rates =" in source)
-    proof = next(i for i, source in enumerate(cells) if "exact_rate =" in source)
+    model = next(i for i, source in enumerate(cells) if "energy_dot =" in source)
+    chain = next(i for i, source in enumerate(cells) if "V_dot =" in source)
     press(page, last, "Run")
     assert output_of(page, last).startswith("Done")
     assert page.locator(".python-output mjx-container").count() >= last
 
-    # A sign turned round: the check in the cell fails, and says where; without it a rest remains.
-    wrong = cells[model].replace("rho: -v *", "rho: v *")
-    write(page, model, wrong)
+    # A sign turned round: the cell shows another rate, and an assert says so to those below it.
+    wrong = cells[model].replace("- c * p", "+ c * p")
+    write(page, model, wrong.rstrip().rpartition("\n")[0] + "\nprint(sp.expand(energy_dot))")
+    page.keyboard.press("Control+Enter")
+    assert output_of(page, model).startswith("Done")
+    assert shown(page, model).strip() == "c*p**2"
+    write(page, model, wrong + "\nassert sp.expand(energy_dot) == -c * p**2")
     press(page, last, "Run")
     assert output_of(page, last) == f"An error, in cell {model + 1} above."
     assert re.match(r"Line \d+: AssertionError: assert", shown(page, model))
-    rest = re.sub(r"(?m)^ *assert.*$|^for number.*$", "", wrong)
-    rest = rest.rstrip().rpartition("\n")[0] + "\nprint(sp.expand(slope - EQUATIONS[20].rhs))"
-    write(page, model, rest)
-    page.keyboard.press("Control+Enter")
-    assert output_of(page, model).startswith("Done")
-    assert shown(page, model).strip() == "2*rho*v*cos(alpha)/L"
-    press(page, last, "Run")  # what was right above is computed again, from the wrong sign
-    assert output_of(page, last) == f"An error, in cell {proof + 1} above."
+    press(page, model, "Reset")
+    write(page, chain, cells[chain].replace("* rho_dot", "* rho_dots"))
+    press(page, last, "Run")
+    assert output_of(page, last) == f"An error, in cell {chain + 1} above."
+    press(page, chain, "Reset")
 
     # An endless loop: the page stays alive, and what was computed is computed again.
     write(page, model, "while True:\n    pass")

@@ -35,6 +35,19 @@ def downhill(scene: str = "whole") -> Stage:
             f"Drag the start, and turn it: is there one from which *V* rises? {CAME}",
             look="other",
         ),
+        "bowl": Scene(
+            "*rho* = {distance}, *alpha* = {alpha}, *theta* = {theta}, and so *V* = {value}. "
+            "Drag the start, and turn it: where is *V* small?",
+            look="other",
+            shows=("errors",),
+            still=True,
+        ),
+        "parts": Scene(
+            "One robot, and the two parts of its *V*: that of the distance and that of the "
+            "angles. Neither ever rises. Drag the start.",
+            look="other",
+            shows=("parts",),
+        ),
         "ask": Scene(
             CAME,
             look="other",

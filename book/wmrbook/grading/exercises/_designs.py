@@ -23,7 +23,7 @@ _SQUARED = "look at v_max: by how much is the braking larger at twice the speed?
 
 @exercise
 def brake(limits: Any) -> str:
-    """4.1: the largest k_rho with the exponential and with tanh."""
+    """4.5: the largest k_rho with the exponential and with tanh."""
     grid = [x / 1000 for x in range(5000)]
     exponential = max(math.exp(-x) * -math.expm1(-x) for x in grid)
     steepest = exponential, max(math.tanh(x) / math.cosh(x) ** 2 for x in grid)
@@ -44,7 +44,7 @@ def brake(limits: Any) -> str:
 
 @exercise
 def aicardi(V_rate: Any) -> str:
-    """4.2: V' of (19) with Aicardi's law."""
+    """4.3: V' of (19) with Aicardi's law."""
     right, steering = lyapunov_rate("aicardi"), -k_alpha * alpha**2
     slower = right + (1 - 1 / (k_rho * rho)) * k_rho / L * (rho * sp.cos(alpha)) ** 2
     mistakes = {
@@ -70,7 +70,7 @@ def _expect_rate(
 
 @exercise
 def pendulum(swing: Callable, share: Any = None) -> str:
-    """4.3: swing(q, p, seconds) returns (q, p) then; the share of 400 that end at q = 0."""
+    """4.4: swing(q, p, seconds) returns (q, p) then; the share of 400 that end at q = 0."""
     for q, p, seconds in ((0.5, -1.0, 2.0), (-4.0, 2.5, 3.0), (6.0, 2.0, 20.0)):
         value = ask_numbers(swing, 2, q, p, seconds)
         swung = partial(_swung, q, p, seconds)
