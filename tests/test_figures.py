@@ -19,6 +19,7 @@ GAINS, CIRCLE_GAINS, GENTLE = paper.OUTDOOR_GAINS, paper.CIRCLE_GAINS, wmr.GENTL
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 CASE = paper.outdoor()
 ROBOT, GOAL = wmr.Pose(0.0, 0.0, math.radians(15)), wmr.Pose(4.0, 5.7, math.radians(-25))
+ROBOT_RATES = wmr.polar_rate(1.0, wmr.polar_error(ROBOT, GOAL).alpha, 2.0, 0.0)  # 1 m away
 LAGS, AT_REST = np.array([1.0, 10.0, 100.0]), np.array([[0.1, 0.4, 0.2], [0.9, 0.8, 0.7]])
 
 
@@ -129,6 +130,8 @@ CASES = {
     ),
     "robot_loops": lambda: figures.robot_loops(0.2, 4.0),
     "third_angle": lambda: figures.third_angle(ROBOT, GOAL),
+    "velocity_split": lambda: figures.velocity_split(ROBOT, GOAL, 2.0),
+    "velocity_split, backwards": lambda: figures.velocity_split(ROBOT, GOAL, -0.5),
     "path_choices": lambda: figures.path_choices(
         {"one": WAY, "two": wmr.Pose(WAY.x, 0.5 * WAY.y, 0.0)}, ORIGIN
     ),
@@ -222,9 +225,11 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     "coordinate_system": lambda: ["35 deg from east"],
     "robot_loops": lambda: ["the polar error every 0.2 s; the wheel", "loops every 0.05 s"],
     "third_angle": lambda: [
-        "theta = 80 deg, turned from the goal's heading to the line of sight",
-        "beta = -80 deg, turned back from the line of sight to the goal's heading, "
-        "as in Corke, Siegwart, PythonRobotics",
+        "Yousif and Ali: theta = 80 deg, turned from the goal's heading to the line of sight",
+        "Siegwart: beta = -80 deg, turned back from the line of sight to the goal's heading; Corke",
+    ],
+    "velocity_split": lambda: [
+        f"{-ROBOT_RATES[0]:.2f} m/s along the line of sight and {ROBOT_RATES[2]:.2f} m/s across it"
     ],
     "path_choices": lambda: ["one: ends 0.10 m from the goal, its heading 11 deg off"],
     "compare_runs": lambda: [
@@ -455,6 +460,7 @@ BAD = [
     (r"lat = 90\.0 is not allowed", "curvature_radii", (90.0, 0.3)),
     (r"track_width = 0\.0 .* above 0", "coordinate_system", (ORIGIN, 0.0, 0.1)),
     (r"wheel_radius = -0\.1 .* above 0", "coordinate_system", (ORIGIN, 1.0, -0.1)),
+    ("v = 0.0 .* a speed other than 0", "velocity_split", (ROBOT, GOAL, 0.0)),
     ("tracks has 0 entries, .* 1 to 4 are needed", "path_choices", ({}, ORIGIN)),
     ("a Pose is needed, not a tuple", "path_choices", ({"one": WAY}, (0, 0, 0))),
     ("runs has 0 entries", "angles_over_time", ([],)),

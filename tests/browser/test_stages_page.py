@@ -22,11 +22,14 @@ from wmrlib import (
     GeoPoint,
     Pose,
     Receiver,
+    control_law,
     destination_point,
     haversine_distance,
     initial_bearing,
     modes,
     paper,
+    polar_error,
+    polar_rate,
     residual,
     simulate,
     sweep,
@@ -271,3 +274,32 @@ def test_a_stage_says_what_wmrlib_computes(browser_page):
         said = said.replace("\N{NO-BREAK SPACE}", " ")
         assert re.search(truth(), said), f"{name}: {said}, not {truth()}"
         assert not panel.troubled()
+
+
+def test_a_stage_drives_with_the_wrong_sign_as_wmrlib_does(browser_page):
+    stage = stages.three_numbers()
+    module = sys.modules["wmrbook.stages.three_numbers"]
+    where, options = (module.START, module.GOAL, GENTLE_GAINS), {"method": "arc", "dt": module.DT}
+    run = simulate(*where, law=module.mistaken, **options)
+    mounted(browser_page, stage, width=620).set(sign="wrong")
+    said = _words(browser_page)
+    assert f"stops after {run.t[-1]:.1f} s, {off_heading(run):.0f}° off its heading" in said
+
+
+def test_a_stage_splits_the_velocity_as_wmrlib_does(browser_page):
+    stage = stages.three_numbers("split")
+    module = sys.modules["wmrbook.stages.three_numbers"]
+    error = polar_error(module.START, module.GOAL)
+    v, omega = control_law(*error, GENTLE_GAINS)
+    closing, _, turning = polar_rate(error.rho, error.alpha, v, omega)
+    mounted(browser_page, stage, width=620)
+    said = _words(browser_page)
+    across = v * math.sin(error.alpha)
+    assert f"Of v = {v:.2f} m/s, {-closing:.2f} m/s go along" in said
+    assert f"{across:.2f} m/s across it. The line turns at {math.degrees(turning):.2f} °/s" in said
+
+
+def _words(page) -> str:
+    """Return what a stage says, with plain spaces and minuses."""
+    said = page.locator(".stage-words[data-on=true]").text_content()
+    return " ".join(said.replace("\N{MINUS SIGN}", "-").split())

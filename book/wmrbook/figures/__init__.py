@@ -17,7 +17,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "spherical_triangle",
         ],
         "robot": ["coordinate_system", "robot_loops"],
-        "angles": ["angles_over_time", "path_choices", "third_angle"],
+        "angles": ["angles_over_time", "path_choices", "third_angle", "velocity_split"],
         "lyapunov": ["heading_errors"],
         "pose_to_pose": [
             "block_diagram",

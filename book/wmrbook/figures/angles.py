@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from wmrbook.conventions import CONVENTIONS, translate
-from wmrbook.figures._drawing import check_count, note, panels, run_list
+from wmrbook.figures._drawing import check_count, note, panels, pointer, run_list
 from wmrbook.figures.paths import pose_at
 from wmrbook.figures.style import (
     COLOURS,
@@ -21,36 +21,78 @@ from wmrbook.figures.style import (
     pose_arrow,
     robot,
 )
-from wmrlib.checks import instance
+from wmrlib.checks import instance, reals, refusal
 from wmrlib.kinematics import Pose, polar_error, wrap_angle
 from wmrlib.runs import Trajectory
 
+AUTHORS = {"Yousif and Ali": "aicardi", "Siegwart": "siegwart", "Corke": "corke"}
+"""Whose third angle is drawn: the paper's from its (7) on is Aicardi's."""
+
 
 def third_angle(pose: Pose, goal: Pose) -> Picture:
-    """The third angle in both signs, theta on the left, beta = -theta on the right, with users."""
+    """The third angle of the paper, of Siegwart and of Corke, one picture each, with its sign."""
     polar = polar_error(pose, goal)
-    rho, theta = polar.rho, polar.theta
-    beta = translate(polar, "aicardi", "corke")[2]
     sight = math.atan2(goal.y - pose.y, goal.x - pose.x)
-    figure, (left, right) = panels(1, 2, 9.2, 5.0)
-    users = {
-        sign: ", ".join(_people(name) for name, signs in CONVENTIONS.items() if signs.third == sign)
-        for sign in (1, -1)
-    }
-    ours = f"the paper's (7)-(9), wmrlib,\n{users[1]}"
-    theirs = users[-1].replace("gwart, ", "gwart,\n")
-    for axes, begin, turn, name, title in (
-        (left, goal.heading, theta, r"$\theta$", ours),
-        (right, sight, beta, r"$\beta$", theirs),
+    figure, row = panels(1, 3, 10.0, 2.4)
+    words = []
+    for axes, (author, convention) in zip(row, AUTHORS.items(), strict=True):
+        turn = translate(polar, "aicardi", convention)[2]
+        ours = CONVENTIONS[convention].third == 1
+        begin, name = (goal.heading, "theta") if ours else (sight, "beta")
+        rho = polar.rho
+        axes.plot([pose.x, goal.x], [pose.y, goal.y], "--", color=COLOURS["rho"])
+        looks = {"color": COLOURS["rho"], "ls": "--"}
+        _ray(axes, goal, sight, 0.6 * rho, "line of sight", **looks)
+        _ray(axes, goal, goal.heading, 0.6 * rho, "goal's heading", color=COLOURS["goal"])
+        robot(axes, pose, "path")
+        pose_arrow(axes, goal, "goal")
+        _arc(axes, goal, begin, turn, 0.45 * rho, rf"$\{name}$ = {_degrees(turn)}", "theta")
+        axes.set_title(author)
+        axes.set_axis_off()
+        _frame(axes, goal.x + rho * np.array([-1.1, 1.5]), goal.y + rho * np.array([-0.65, 0.35]))
+        words.append(
+            f"{author}: {name} = {_degrees(turn)}, "
+            + (
+                "turned from the goal's heading to the line of sight"
+                if ours
+                else "turned back from the line of sight to the goal's heading"
+            )
+        )
+    return Picture(figure, f"The same robot and goal three times. {'; '.join(words)}.")
+
+
+def velocity_split(pose: Pose, goal: Pose, v: float) -> Picture:
+    """The robot's velocity at v [m/s], split into a part along the line of sight and one across."""
+    rho, alpha, _ = polar_error(pose, goal)
+    (v,) = reals(v=v)
+    if v == 0.0:
+        raise refusal("v", v, "a speed other than 0")
+    sight = math.atan2(goal.y - pose.y, goal.x - pose.x)
+    along, across = v * math.cos(alpha), v * math.sin(alpha)
+    figure, axes = new_figure(7.0, 3.8)
+    axes.plot([pose.x, goal.x], [pose.y, goal.y], "--", color=COLOURS["rho"])
+    pose_arrow(axes, goal, "goal")
+    robot(axes, pose, "path")
+    _arc(axes, pose, pose.heading, alpha, 0.12 * rho, r"$\alpha$", "alpha")
+    scale = 0.45 * rho / abs(v)
+    corner = _ahead(pose, sight, scale * along)
+    tip = _ahead(pose, pose.heading, scale * v)
+    for begin, end, role, label, offset in (
+        (pose[:2], tip, "path", rf"$v$ = {v:.2f} m/s", (-10, 8)),
+        (pose[:2], corner, "rho", rf"$v\,\cos\alpha$ = {along:.2f} m/s", (10, -20)),
+        (corner, tip, "theta", rf"$v\,\sin\alpha$ = {across:.2f} m/s", (12, 6)),
     ):
-        _scene(axes, pose, goal, rho, sight)
-        _arc(axes, goal, begin, turn, 0.40 * rho, f"{name} = {_degrees(turn)}", "theta")
-        axes.set_title(title)
+        pointer(axes, begin, end, COLOURS[role], lw=2.5, mutation_scale=18)
+        middle = [0.5 * (one + other) for one, other in zip(begin, end, strict=True)]
+        side = "right" if offset[0] < 0 else "left"
+        note(axes, label, middle, offset, ha=side, color=COLOURS[role])
+    x, y = np.transpose([pose[:2], goal[:2], tip, corner])
+    _frame(axes, x, y, 0.15 * rho)
+    axes.set(xlabel="x [m]", ylabel="y [m]")
     return Picture(
         figure,
-        f"The same robot and goal twice. Left: theta = {_degrees(theta)}, turned from the goal's "
-        f"heading to the line of sight. Right: beta = {_degrees(beta)}, turned back from the line "
-        f"of sight to the goal's heading, as in {users[-1]}.",
+        f"The robot, its goal {rho:.2f} m away, and its velocity of {v:.2f} m/s, split: "
+        f"{along:.2f} m/s along the line of sight and {across:.2f} m/s across it.",
     )
 
 
@@ -177,8 +219,14 @@ def _arc(
     axes.text(x, y, label, color=colour, fontsize=fontsize, ha=side, va="center")
 
 
-def _people(name: str) -> str:
-    return {"pythonrobotics": "PythonRobotics"}.get(name, name.capitalize())
+def _frame(axes: Axes, x: np.ndarray, y: np.ndarray, room: float = 0.0) -> None:
+    """Show the points in equal scales, with `room` around them, as wide and high as they are."""
+    xlim, ylim = ((it.min() - room, it.max() + room) for it in (x, y))
+    axes.set(xlim=xlim, ylim=ylim, aspect="equal")
+
+
+def _ahead(pose: Pose, direction: float, length: float) -> tuple[float, float]:
+    return pose.x + length * math.cos(direction), pose.y + length * math.sin(direction)
 
 
 def _degrees(angle: float) -> str:

@@ -133,7 +133,7 @@ def _driven(log, width: float, dt: float, side: int = 1, turned: float | None = 
 
 @exercise
 def back_to_the_pose(pose: Callable, there: Any = None) -> str:
-    """3.2: pose(rho, alpha, theta, goal) returns (x, y, heading); `there`: m, m, deg of the log."""
+    """3.4: pose(rho, alpha, theta, goal) returns (x, y, heading); `there`: m, m, deg of the log."""
     own_work(pose)
     bounds = (0.1, 9.0), (-3.0, 3.0), (-3.0, 3.0), (-5.0, 5.0), (-5.0, 5.0), (-3.0, 3.0)
     for far, ahead, beside, *at in drawn(3, 20, *bounds):

@@ -37,7 +37,7 @@ export const CONTRACTS = {
   'stages/race_of_laws': 'e62b0ab6',
   'stages/seam': '802b22f6',
   'stages/standing_still': 'c2ebee23',
-  'stages/three_numbers': '2ab00e1d',
+  'stages/three_numbers': '7a3435a1',
   'stages/two_drives': '0eb9a4c2',
   'stages/two_numbers': '1e36a0bf',
   'stages/two_wheels': 'b9859633',
