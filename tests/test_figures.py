@@ -33,14 +33,6 @@ def drive(law="corrected", gains=GAINS, x_axis="east", **options):
 
 
 @cache
-def around(gains):
-    """Three runs from 2 m away, the first from straight ahead of the goal."""
-    starts = wmr.Pose(np.array([2.0, -1.0, 0.0]), np.array([0.0, 3.0**0.5, -2.0]), np.zeros(3))
-    options = {"trajectories": True, "dt": 0.02, "progress": False}
-    return wmr.sweep(starts, wmr.Pose(0.0, 0.0, 0.0), gains, **options)[1]
-
-
-@cache
 def chase():
     return wmr.track(paper.circle, paper.CIRCLE_START, CIRCLE_GAINS, duration=40.0)
 
@@ -138,11 +130,13 @@ CASES = {
     "angles_over_time": lambda: figures.angles_over_time(drive()),
     "angles_over_time of two": lambda: figures.angles_over_time([drive(), drive("aicardi")]),
     "heading_errors": lambda: figures.heading_errors(near_goal_runs(), ["one", "two"]),
-    "compare_runs": lambda: figures.compare_runs(
-        {"one": drive(), "two": drive("printed", x_axis="north")}, "v", level=(4.0, "the limit")
+    "figures_8_to_12": lambda: figures.figures_8_to_12(
+        {"one": drive(), "two": drive("printed", x_axis="north")}
     ),
-    "compare_runs, log": lambda: figures.compare_runs({"one": chase()}, "rho", log=True),
-    "ring": lambda: figures.ring({"one": around(GAINS), "two": around(GAINS)}, wmr.Pose(0, 0, 0)),
+    "heading_to_go": lambda: figures.heading_to_go({"one": drive()}),
+    "endpoints": lambda: figures.endpoints(
+        np.array([1.0, 2.0, 4.0]), {"one": np.array([1.0, -9.0, 4.0]), "two": np.zeros(3)}
+    ),
     "snapshots, tall": lambda: figures.snapshots(drive(), [0.0, 5.0, 10.0, drive().t[-1]]),
     "snapshots, wide": lambda: figures.snapshots(drive(x_axis="north"), [0.0, 5.0, 14.0]),
     "heading_shares": lambda: figures.heading_shares(
@@ -232,12 +226,12 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         f"{-ROBOT_RATES[0]:.2f} m/s along the line of sight and {ROBOT_RATES[2]:.2f} m/s across it"
     ],
     "path_choices": lambda: ["one: ends 0.10 m from the goal, its heading 11 deg off"],
-    "compare_runs": lambda: [
-        "one goes from 3.96 to 0.36 m/s",
-        "a dotted line marks the limit, 4 m/s",
+    "figures_8_to_12": lambda: [
+        "Fig. 9, one goes from 3.96 to 0.36 m/s",
+        "Fig. 12, one goes from 57.27 to",
     ],
-    "ring": lambda: ["from 3 starts on a circle of 2 m: one 1 set off backwards, the longest path"],
-    "compare_runs, log": lambda: ["one goes from 2.2 to 0.09 m."],
+    "heading_to_go": lambda: ["one: at most 47 deg off within 0.3 m of the goal"],
+    "endpoints": lambda: ["3 runs end", "one: 67 % are within 5 deg; two: 100 % are"],
     "snapshots, tall": lambda: [
         "b after 5.0 s, 38.1 m to go, heading 84 deg",
         "the goal's heading is -60 deg",
@@ -365,13 +359,24 @@ def test_headings_are_not_wrapped():
     assert drawn.max() > 180
 
 
-def test_compare_runs_draws_the_field_it_was_asked_for():
+def test_the_papers_figures_are_drawn_from_the_runs_with_a_style_for_each():
     runs = {"one": drive(), "two": drive("printed", x_axis="north")}
-    for field in ("v", "omega", "rho"):
-        one, two = figures.compare_runs(runs, field).figure.axes[0].lines[-2:]
-        assert np.array_equal(one.get_ydata(), getattr(runs["one"], field))
-        assert np.array_equal(two.get_ydata(), getattr(runs["two"], field))
+    path, *fields = axes_of("figures_8_to_12")
+    for axes, name in zip(fields, ("v", "omega", "x_error", "y_error"), strict=True):
+        one, two = axes.lines[-2:]
+        assert np.array_equal(one.get_ydata(), getattr(runs["one"], name))
+        assert np.array_equal(two.get_ydata(), getattr(runs["two"], name))
         assert one.get_linestyle() != two.get_linestyle()  # never colour alone
+    assert np.array_equal(path.lines[0].get_xdata(), runs["one"].x)
+
+
+def test_the_distance_to_go_shrinks_to_the_right():
+    (axes,) = axes_of("heading_to_go")
+    left, right = axes.get_xlim()
+    assert left > right
+    assert axes.lines[-1].get_ydata()[-1] == pytest.approx(
+        math.degrees(drive().heading_error[-1]), abs=0.01
+    )
 
 
 def test_snapshots_show_the_robot_where_it_was_and_how_it_looked():
@@ -466,9 +471,11 @@ BAD = [
     ("runs has 0 entries", "angles_over_time", ([],)),
     ("runs has 5 entries, .* 1 to 4 are needed", "path", ([0] * 5,)),
     ("labels has 2 entries", "heading_errors", ([0], ["one", "two"])),
-    ("runs has 0 entries, .* 1 to 5 are needed", "compare_runs", ({}, "v")),
-    ("runs has 6 entries", "compare_runs", (FIVE, "v")),
-    (r"runs\['one'\] = 3 .* a Trajectory is needed", "compare_runs", ({"one": 3}, "v")),
+    ("runs has 0 entries, .* 1 to 5 are needed", "figures_8_to_12", ({},)),
+    ("runs has 6 entries", "heading_to_go", (FIVE,)),
+    (r"runs\['one'\] = 3 .* a Trajectory is needed", "figures_8_to_12", ({"one": 3},)),
+    (r"distance = 0\.0 is not allowed", "endpoints", (0.0, {"one": 1.0})),
+    ("mismatched lengths", "endpoints", (np.ones(2), {"one": np.ones(3)})),
     ("runs = .* is not allowed: a Mapping is needed", "chase", ([3],)),
     ("a Trajectory is needed", "snapshots", (3, [0.0, 1.0])),
     ("one = .* is not allowed", "heading_shares", ({"one": np.array([math.nan])},)),
@@ -507,7 +514,7 @@ def test_a_run_without_a_sample_is_named_and_so_is_a_picture_without_a_drive():
         *((name, ([drive(), lost],), "runs[1]") for name in ("path", "heading_errors")),
         ("angles_over_time", (lost,), "runs[0]"),
         ("snapshots", one["moments"], "run"),
-        ("compare_runs", (several, "v"), "runs['lost']"),
+        ("figures_8_to_12", (several,), "runs['lost']"),
         ("chase", (several,), "runs['lost']"),
         ("heading_powers", (several, {}), "runs['lost']"),
         ("inner_loops", ({"near": several, "far": several},), "cases['near']['lost']"),
@@ -521,7 +528,6 @@ def test_a_run_without_a_sample_is_named_and_so_is_a_picture_without_a_drive():
 
 def test_bad_input_is_named():
     beside_a_run = [
-        ("field = 'speed' .* one of 'v'", "compare_runs", ({"one": drive()}, "speed")),
         ("times has 1 entries, .* 2 to 6", "snapshots", (drive(), [0.0])),
         (r"times = .* at most 15\.5", "snapshots", (drive(), [0.0, 99.0])),
         ("driven has no sample", "route", (route("lost"),)),

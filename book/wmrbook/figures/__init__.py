@@ -21,9 +21,10 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "lyapunov": ["heading_errors"],
         "pose_to_pose": [
             "block_diagram",
-            "compare_runs",
+            "endpoints",
+            "figures_8_to_12",
             "heading_shares",
-            "ring",
+            "heading_to_go",
             "snapshots",
         ],
         "circle": ["chase", "residual_curve", "tradeoff"],

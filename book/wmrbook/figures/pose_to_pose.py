@@ -1,4 +1,4 @@
-"""Chapter 5: several runs on one axis, moments of one run, many runs, and the block diagram.
+"""Chapter 5: the paper's figures 8 to 12, the one that is missing, and the ends of many runs.
 
 `runs` maps one to five labels to Trajectories; a label keeps its colour and line style in all
 figures whose labels stand in the same order.
@@ -24,24 +24,25 @@ from wmrbook.figures._drawing import (
 from wmrbook.figures.paths import pose_at
 from wmrbook.figures.style import (
     COLOURS,
-    Drive,
     Picture,
     equal_scales,
     new_figure,
     pose_arrow,
     robot,
 )
-from wmrlib.checks import choice, real, scalar
-from wmrlib.kinematics import Pose
-from wmrlib.runs import Trajectories, Trajectory, with_samples
+from wmrlib.checks import real, same_shape, scalar
+from wmrlib.runs import Trajectory, with_samples
 
-_LEAST = 1e-6  # of a logarithmic scale
+_NEAREST = 0.01  # m, where a logarithmic scale of distances ends
 _STEPS = 300  # of a line: more are smaller than a pixel, and weigh tens of kilobytes
+_CLOSE = 0.3  # m, the last bit of a drive
+_LEAST = 0.05  # deg, of a logarithmic scale
 _ALLOWED = 5.0  # deg, of a heading
-_FIELDS = {
-    "v": ("v [m/s]", "speed v", "m/s"),
-    "omega": ("omega [rad/s]", "turning rate omega", "rad/s"),
-    "rho": ("distance to the goal [m]", "distance", "m"),
+_PRINTED = {  # the paper's figure of a field over time: its number, its axis, its unit
+    "v": ("Fig. 9", "v [m/s]", "m/s"),
+    "omega": ("Fig. 10", "omega [rad/s]", "rad/s"),
+    "x_error": ("Fig. 11", "x error [m]", "m"),
+    "y_error": ("Fig. 12", "y error [m]", "m"),
 }
 _BOXES = (  # name, what it does, the colour's role, centre: row by row, there and back
     ("GPS", "two points,\ntwo headings", "y_error", (1.2, 4.1)),
@@ -54,74 +55,78 @@ _BOXES = (  # name, what it does, the colour's role, centre: row by row, there a
 _SIGNALS = ("lat, lon", "goal pose", "polar error", "v, omega", "speeds")
 
 
-def compare_runs(
-    runs: Mapping[str, Trajectory],
-    field: str,
-    *,
-    log: bool = False,
-    level: tuple[float, str] | None = None,
-) -> Picture:
-    """One field of several runs over time: "v", "omega" or "rho".
-
-    log: a logarithmic scale (values below 1e-6 are not drawn); level: a value and its name, drawn
-    as a thin dotted line.
-    """
+def figures_8_to_12(runs: Mapping[str, Trajectory]) -> Picture:
+    """The paper's figures of its outdoor drive: path, speed, turning rate and both errors."""
     check_series(runs, Trajectory)
-    label, name, unit = _FIELDS[choice("field", field, _FIELDS)]
-    figure, axes = new_figure(7.5, 3.6)
-    if not log:
-        axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
-    fields = {title: getattr(run, field) for title, run in runs.items()}
+    mosaic = [["path", [["v", "omega"], ["x_error", "y_error"]]]]
+    figure, axes = new_figure(10.2, 4.8, mosaic=mosaic)
+    axes["path"].get_gridspec().set_width_ratios([1.0, 2.0])
+    series = list(zip(runs.items(), SERIES, strict=False))
+    path, words = axes.pop("path"), []
+    for (title, run), (role, style) in series:
+        path.plot(run.x, run.y, color=COLOURS[role], ls=style, label=title)
+        goal = pose_at(run.goal, -1)
+        pose_arrow(path, goal, size=0.6, zorder=3)
+        pose_arrow(path, pose_at(run, 0), "start", 0.6, zorder=3)
+    everywhere = [np.concatenate([getattr(it, axis) for it in runs.values()]) for axis in "xy"]
+    equal_scales(path, *everywhere, room=0.1)
+    path.set(xlabel="x [m]", ylabel="y [m]", title="Fig. 8: path")
+    for name, panel in axes.items():
+        number, label, unit = _PRINTED[name]
+        panel.axhline(0.0, color=COLOURS["ink"], lw=0.8)
+        for (title, run), (role, style) in series:
+            panel.plot(run.t, getattr(run, name), color=COLOURS[role], ls=style)
+            words.append(_course_in_words(f"{number}, {title}", getattr(run, name), unit))
+        panel.set(title=number, ylabel=label, xlabel="time [s]")
+    for above in (axes["v"], axes["omega"]):
+        above.tick_params(labelbottom=False)  # as below
+        above.set_xlabel("")
+    figure_legend(figure)
+    return Picture(figure, f"Figures 8 to 12 of the paper, rebuilt: {'; '.join(words)}.")
+
+
+def heading_to_go(runs: Mapping[str, Trajectory]) -> Picture:
+    """The heading error [deg] over the distance that is still to go, on a logarithmic scale."""
+    check_series(runs, Trajectory)
+    figure, axes = new_figure(7.5, 4.2)
+    axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
+    words = []
     for (title, run), (role, style) in zip(runs.items(), SERIES, strict=False):
-        values = fields[title]
-        drawn = np.where(values < _LEAST, np.nan, values) if log else values
-        axes.plot(run.t, drawn, color=COLOURS[role], ls=style, label=title)
-    mark = ""
-    if level is not None:
-        value = real("level", level[0])
-        axes.axhline(value, color=COLOURS["ink"], lw=1.2, ls=":", label=level[1])
-        number = "" if f"{value:g} {unit}" in level[1] else f", {value:g} {unit}"
-        mark = f"; a dotted line marks {level[1]}{number}"
-    axes.set(xlabel="time [s]", ylabel=label)
-    if log:
-        axes.set_yscale("log")
-        if min(values.min() for values in fields.values()) < _LEAST:
-            axes.set_ylim(bottom=_LEAST)
-    if len(runs) > 1 or level is not None:
-        figure_legend(figure)
-    parts = [_course_in_words(title, values, unit, log) for title, values in fields.items()]
-    scale = ", on a logarithmic scale" if log else ""
-    return Picture(figure, f"The {name} over time{scale}: {'; '.join(parts)}{mark}.")
+        near = run.rho >= _NEAREST
+        error = np.degrees(run.theta - run.alpha)
+        axes.plot(run.rho[near], error[near], color=COLOURS[role], ls=style, label=title)
+        largest = np.abs(error[run.rho <= _CLOSE]).max(initial=0.0)
+        words.append(f"{title}: at most {largest:.0f} deg off within {_CLOSE:g} m of the goal")
+    axes.set(xscale="log", xlabel="distance to go [m]", ylabel="heading error [deg]")
+    axes.invert_xaxis()  # as time runs
+    axes.xaxis.set_major_formatter("{x:g}")
+    figure_legend(figure)
+    return Picture(figure, f"The heading error over the distance to go: {'; '.join(words)}.")
 
 
-def ring(paths: Mapping[str, Trajectories], goal: Pose) -> Picture:
-    """The paths of many runs to one goal, a panel for each label: the field's icon.
+def endpoints(distance: np.ndarray, errors: Mapping[str, np.ndarray]) -> Picture:
+    """The heading error [deg] on arrival of many runs over their first distance [m].
 
-    Starts that face alike, on a circle round the goal, show a law's habits at a glance.
+    errors: from a label to those of its runs, a panel each; drawn without their signs, on a
+    logarithmic scale, where the least stand on the edge. A dotted line marks what is allowed.
     """
-    check_series(paths, Trajectories)
-    figure, row = panels(1, len(paths), 3.5 * len(paths), 3.8, sharey=True, squeeze=False)
-    texts, drives = [], []
-    for (title, many), axes in zip(paths.items(), row[0], strict=True):
-        steps = np.hypot(np.diff(many.x), np.diff(many.y))
-        axes.plot(many.x.T, many.y.T, color=COLOURS["path"], lw=1.3)
-        for k in range(len(many.x)):
-            robot(axes, Pose(many.x[k, 0], many.y[k, 0], many.heading[k, 0]), "start", 0.5)
-        pose_arrow(axes, goal, size=0.6)
-        axes.set_title(title)
-        equal_scales(axes, np.r_[many.x[:, 0], goal.x], np.r_[many.y[:, 0], goal.y], room=0.2)
-        axes.set(xlabel="x [m]", ylabel="y [m]")
-        axes.label_outer()
-        for x, y, heading in zip(many.x, many.y, many.heading, strict=True):
-            driven = np.isfinite(x)
-            drives.append(Drive(axes, many.t[driven], x[driven], y[driven], heading[driven]))
-        backing = int((many.v[:, 0] < -1e-9).sum())
-        longest = np.nansum(steps, axis=1).max()
-        texts.append(f"{title} {backing} set off backwards, the longest path has {longest:.1f} m")
-    figure.draw_without_rendering()  # the layout knows titles beside equal scales only then
-    count, far = len(many.x), many.rho[:, 0].max()
-    what = f"Paths to a goal from {count} starts on a circle of {far:.0f} m"
-    return Picture(figure, f"{what}: {'; '.join(texts)}.", drives)
+    distance = real("distance", distance, above=0.0)
+    check_series(errors)
+    figure, row = panels(1, len(errors), 4.5 * len(errors), 4.2, sharey=True, squeeze=False)
+    words = []
+    for (title, values), axes in zip(errors.items(), row[0], strict=True):
+        off = real(title, values)
+        same_shape(distance=distance, **{title: off})
+        size = np.maximum(np.abs(off), _LEAST)
+        axes.plot(distance, size, ".", ms=3, color=COLOURS["path"], rasterized=True)  # lighter
+        axes.axhline(_ALLOWED, color=COLOURS["goal"], ls=":", lw=2.0)
+        axes.set(title=title, xscale="log", yscale="log", xlabel="distance of the start [m]")
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter("{x:g}")
+        good = 100.0 * np.mean(np.abs(off) <= _ALLOWED)
+        words.append(f"{title}: {good:.0f} % are within {_ALLOWED:g} deg")
+    row[0, 0].set(ylabel="heading error on arrival [deg]")
+    return Picture(figure, f"Where {distance.size} runs end, a dot each: {'; '.join(words)}.")
 
 
 def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
@@ -221,19 +226,10 @@ def block_diagram(time_step: float, times_faster: float) -> Picture:
     )
 
 
-def _course_in_words(title: str, values: np.ndarray, unit: str, log: bool) -> str:
-    digits = 1 if np.abs(values).max() > 5 else 2
-
-    def rounded(value: float) -> str:
-        if log:
-            return f"{value:.2g}" if value >= _LEAST else "less than 1e-6"
-        if abs(value) < 0.5 * 10**-digits:
-            return "nearly 0" if values.min() < -1e-9 else f"less than {10**-digits:g}"
-        return f"{value:.{digits}f}"
-
-    first, last, low, high = map(rounded, (values[0], values[-1], values.min(), values.max()))
-    between = "" if {low, high} == {first, last} else f", between {low} and {high} {unit}"
-    return f"{title} goes from {first} to {last} {unit}{between}"
+def _course_in_words(title: str, values: np.ndarray, unit: str) -> str:
+    first, last, low, high = values[0], values[-1], values.min(), values.max()
+    between = f"between {low:z.2f} and {high:z.2f}"
+    return f"{title} goes from {first:z.2f} to {last:z.2f} {unit}, {between}"
 
 
 def _room(values: np.ndarray, room: float) -> tuple[float, float]:

@@ -24,6 +24,21 @@ def two_drives(scene: str = "whole") -> Stage:
     )
     scenes = {
         "whole": Scene(f"Both arrive. Which one parks? {CAME}"),
+        "given": Scene(
+            "All that the paper gives: a start that faces {from} from east, a goal {distance} away "
+            "that should be reached facing {to}, a speed limit and three gains.",
+            still=True,
+        ),
+        "drives": Scene(
+            "The paper's gains (grey): *v* stays below 4 m/s by itself. The robot turns at "
+            "{sharpest} at most. Look where.",
+            shows=("twist",),
+        ),
+        "errors": Scene(
+            "The goal lies {east} east and {north} north. Both errors of the grey robot shrink to "
+            "nearly nothing. So what is missing?",
+            shows=("legs",),
+        ),
         "near": Scene(CAME, look="near"),
         "ask": Scene(
             CAME,

@@ -1,7 +1,8 @@
 // Chapter 5: the paper's robot and another one, which both stop at the same distance.
 
 import {
-  driven, endOf, freshRun, gainsOf, goalFromNear, inDegrees, remembered, stage, wrap,
+  DEGREES, driven, endOf, freshRun, gainsOf, goalFromNear, inDegrees, remembered, stage, wrap,
+  written,
 } from '../drawing.js';
 
 const papers = remembered(freshRun), CLOSE = 60; // px a metre, seen from near
@@ -15,8 +16,30 @@ export default stage('two_drives', {
     return { yours, theirs, tracks: [yours, theirs].map((run, k) =>
       ({ ...run, role: LOOKS[k][0], share: LOOKS[k][1] })) };
   },
-  say: ({ goal }, { yours, theirs }) =>
-      ({ yours: endOf(yours, goal), theirs: endOf(theirs, goal) }),
+  say: ({ start, goal }, { yours, theirs }) => ({
+    yours: endOf(yours, goal), theirs: endOf(theirs, goal),
+    distance: written(theirs.rho[0], 'm', 4), from: inDegrees(start[2], 0),
+    to: inDegrees(goal[2], 0),
+    east: written(goal[0] - start[0], 'm'), north: written(goal[1] - start[1], 'm'),
+    sharpest: written(Math.max(...theirs.omega.slice(0, theirs.n).map(Math.abs)), 'rad/s', 2),
+  }),
+  draw(pane, { goal }, { theirs }, { shows, time, poses: [, pose] }) {
+    if (shows.includes('legs')) {
+      const corner = [goal[0], pose[1]];
+      pane.line([pose, corner, goal], 'ink', { width: 1.5, dash: [6, 4] });
+      pane.text(`x: ${written(goal[0] - pose[0], 'm')}`, (pose[0] + goal[0]) / 2, pose[1],
+          { dy: -14, dx: 30 });
+      pane.text(`y: ${written(goal[1] - pose[1], 'm')}`, goal[0], (pose[1] + goal[1]) / 2,
+          { dx: 10 });
+    }
+    if (shows.includes('twist')) {
+      const after = theirs.t.findIndex((t) => t > time),
+          k = after < 0 ? theirs.n - 1 : Math.min(after, theirs.n) - 1;
+      pane.text(`v = ${written(theirs.v[k], 'm/s')}`, pose[0], pose[1], { dx: 26, dy: 12 });
+      pane.text(`ω = ${written(theirs.omega[k] * DEGREES, '°/s')}`, pose[0], pose[1],
+          { dx: 26, dy: -10 });
+    }
+  },
   above(pane, { goal }, { theirs }, { done, poses }) {
     const off = wrap(theirs.heading[theirs.n - 1] - goal[2]);
     if (pane.view.scale < CLOSE)
