@@ -12,7 +12,7 @@
     const short = (it) => it.outerHTML.replace(/<svg.*?<\/svg>/gs, '').slice(0, 90);
 
     if (!all('h2').some((it) => it.textContent.trim())) tell('no title');
-    for (const picture of all('figure img, .live-panes, .wmr-stage canvas')) {
+    for (const picture of all('figure img, .live-panes, .wmr-stage canvas, .stage-view')) {
       const { width, height } = picture.getBoundingClientRect(),
           { naturalWidth, naturalHeight } = picture;
       const tall = naturalWidth ? Math.min(height, width * naturalHeight / naturalWidth) : height;

@@ -52,11 +52,12 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
     ...Object.fromEntries(setup.knobs.map(({ name: knob, value }) => [knob, value])) };
   let colours, found, ghost = null, view, frame = 0, holds = false;
   let at = 0, from = 0, began = 0; // the time shown, and where and when the film began
+  let touched = false; // by a hand, since the scene began
   let close = false, camera = null, flight = null; // what is seen, and from where the camera comes
 
   const scene = () => setup.scenes.find((it) => it.name === values().scene);
   const write = (changes) => model.set('state', { ...values(), ...changes });
-  const byHand = (changes) => { write(changes); model.save_changes(); };
+  const byHand = (changes) => { touched = true; write(changes); model.save_changes(); };
   const whole = () => Math.max(...found.tracks.map(({ t, n }) => t[n - 1])),
       end = () => scene().until * whole(); // where the film of this scene ends
 
@@ -150,6 +151,7 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
   // A hand has moved something: the whole way is seen at once.
   function moved(changes) {
     const { answer } = values();
+    touched = true;
     write({ ...changes, answer: answer === null ? null : -1 }); // a verdict is of what was asked
     began = 0;
     refresh();
@@ -185,6 +187,7 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
     const next = setup.scenes.find((it) => it.name === of);
     if (!next) return;
     ghost = null;
+    touched = false;
     write({ ...home, ...next.to, scene: of, answer: null });
     refresh();
     if (first) close = next.look === 'near'; else fly(next.look === 'near');
@@ -296,11 +299,17 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
   root.stage = { show, scenes: setup.scenes.map((it) => it.name) };
   root.found = () => found; // for tests
   show(values().scene, true);
+  // It drives when it comes into view, as a slide does, unless a hand has moved something.
+  const eye = new IntersectionObserver(([{ isIntersecting }]) => {
+    if (isIntersecting && !touched && !scene().still) film();
+  }, { threshold: 0.3 });
+  eye.observe(host);
   const page = repainted(root, [canvas], (read) => { colours = read; schedule(); });
   const heard = () => { refresh(); schedule(); };
   model.on('change:state', heard);
   return () => {
     page.stop();
+    eye.disconnect();
     cancelAnimationFrame(frame);
     model.off('change:state', heard);
   };
