@@ -92,6 +92,7 @@
     root.dataset.shown = deck.getIndices().h;
     if (matchMedia('(prefers-reduced-motion: reduce)').matches) return;
     waiting = setTimeout(() => {
+      slide.querySelectorAll('.wmr.stage').forEach((it) => it.stage.play());
       if (!slide.querySelector('.live-play[aria-label^="Stop"]')) press(slide, 'Play');
       if (deck.getConfig().autoSlide)
         waiting = setTimeout(() => {

@@ -296,12 +296,13 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
     root.dataset.scene = state.scene;
   }
 
-  root.stage = { show, scenes: setup.scenes.map((it) => it.name) };
+  // It drives when it comes into view, unless a hand has moved something.
+  const replay = () => { if (!touched && !scene().still) film(); };
+  root.stage = { show, play: replay, scenes: setup.scenes.map((it) => it.name) };
   root.found = () => found; // for tests
   show(values().scene, true);
-  // It drives when it comes into view, as a slide does, unless a hand has moved something.
   const eye = new IntersectionObserver(([{ isIntersecting }]) => {
-    if (isIntersecting && !touched && !scene().still) film();
+    if (isIntersecting) root.stage.play();
   }, { threshold: 0.3 });
   eye.observe(host);
   const page = repainted(root, [canvas], (read) => { colours = read; schedule(); });
