@@ -139,9 +139,6 @@ CASES = {
     ),
     "snapshots, tall": lambda: figures.snapshots(drive(), [0.0, 5.0, 10.0, drive().t[-1]]),
     "snapshots, wide": lambda: figures.snapshots(drive(x_axis="north"), [0.0, 5.0, 14.0]),
-    "heading_shares": lambda: figures.heading_shares(
-        {"one": np.array([1.0, 2.0, -4.0, 30.0]), "two": np.array([4.0])}
-    ),
     "block_diagram": lambda: figures.block_diagram(0.2, 4.0),
     "chase": lambda: figures.chase({"one": chase()}),
     "residual_curve": lambda: figures.residual_curve(LIMITS, LEFT, predict, published=0.1),
@@ -235,9 +232,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     "snapshots, tall": lambda: [
         "b after 5.0 s, 38.1 m to go, heading 84 deg",
         "the goal's heading is -60 deg",
-    ],
-    "heading_shares": lambda: [
-        "one 25.0 % are more than 5 deg off, the worst 30.0 deg; two 0.0 % are"
     ],
     "block_diagram": lambda: ["every 0.2 s", "every 0.05 s"],
     "chase": lambda: [
@@ -393,9 +387,9 @@ def test_snapshots_show_the_robot_where_it_was_and_how_it_looked():
         assert axes.get_aspect() == 1.0
 
 
-def test_the_share_at_an_error_is_that_of_the_runs_below_it():
-    line = axes_of("heading_shares")[0].lines[0].get_xydata()[1:-1]
-    assert line.tolist() == [[1.0, 25.0], [2.0, 50.0], [4.0, 75.0], [30.0, 100.0]]
+def test_an_end_is_drawn_without_its_sign_over_the_distance_of_its_start():
+    dots = axes_of("endpoints")[0].lines[0].get_xydata()
+    assert dots.tolist() == [[1.0, 1.0], [2.0, 9.0], [4.0, 4.0]]
 
 
 def test_the_crosses_are_the_roots():
@@ -478,7 +472,7 @@ BAD = [
     ("mismatched lengths", "endpoints", (np.ones(2), {"one": np.ones(3)})),
     ("runs = .* is not allowed: a Mapping is needed", "chase", ([3],)),
     ("a Trajectory is needed", "snapshots", (3, [0.0, 1.0])),
-    ("one = .* is not allowed", "heading_shares", ({"one": np.array([math.nan])},)),
+    ("one = .* is not allowed", "endpoints", (1.0, {"one": np.array([math.nan])})),
     (r"time_step = 0\.0 is not allowed", "block_diagram", (0.0, 10.0)),
     ("gains has 1 .* 2 are needed", "time_steps", (ROBOT, GOAL, {"one": GAINS}, STEPS)),
     ("cases has 0 entries", "inner_loops", ({},)),

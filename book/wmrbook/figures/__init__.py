@@ -23,7 +23,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "block_diagram",
             "endpoints",
             "figures_8_to_12",
-            "heading_shares",
             "heading_to_go",
             "snapshots",
         ],

@@ -34,7 +34,6 @@ from wmrlib.checks import real, same_shape, scalar
 from wmrlib.runs import Trajectory, with_samples
 
 _NEAREST = 0.01  # m, where a logarithmic scale of distances ends
-_STEPS = 300  # of a line: more are smaller than a pixel, and weigh tens of kilobytes
 _CLOSE = 0.3  # m, the last bit of a drive
 _LEAST = 0.05  # deg, of a logarithmic scale
 _ALLOWED = 5.0  # deg, of a heading
@@ -156,34 +155,6 @@ def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
         texts.append(f"{letter} after {run.t[k]:.1f} s, {to_go} m to go, {heading}")
     goal_text = f"the goal's heading is {math.degrees(goal.heading):.0f} deg"
     return Picture(figure, f"Snapshots of one drive: {'; '.join(texts)}; {goal_text}.")
-
-
-def heading_shares(
-    errors: Mapping[str, np.ndarray], *, of: str = "heading error at arrival"
-) -> Picture:
-    """The cumulative share of runs over their heading error [deg], one line for each label.
-
-    A dotted line marks the error that is allowed; `of` says which error it is.
-    """
-    check_series(errors)
-    figure, axes = new_figure(7.0, 3.8)
-    sizes = {title: np.sort(np.abs(real(title, values))) for title, values in errors.items()}
-    widest = min(180.0, 1.1 * max(values[-1] for values in sizes.values()))
-    texts = []
-    for (title, values), (role, style) in zip(sizes.items(), SERIES, strict=False):
-        share = 100.0 * np.arange(1, values.size + 1) / values.size
-        drawn = np.unique(np.linspace(0, values.size - 1, _STEPS).round().astype(int))
-        steps = np.r_[0.0, values[drawn], widest], np.r_[0.0, share[drawn], 100.0]
-        axes.plot(*steps, drawstyle="steps-post", color=COLOURS[role], ls=style, label=title)
-        off = f"{100.0 * np.mean(values > _ALLOWED):.1f} % are more than {_ALLOWED:g} deg off"
-        texts.append(f"{title} {off}, the worst {values[-1]:.1f} deg")
-    axes.axvline(_ALLOWED, color=COLOURS["ink"], ls=":", lw=1.2, label=f"{_ALLOWED:g} deg")
-    axes.set(xlabel=f"{of} [deg]", ylabel="share of the starts [%]")
-    axes.set(xscale="log", xlim=(0.1, widest), ylim=(0, 102))
-    axes.xaxis.set_major_formatter("{x:g}")
-    figure_legend(figure)
-    what = f"Share of many starts against the {of}"
-    return Picture(figure, f"{what}: {'; '.join(texts)}.")
 
 
 def block_diagram(time_step: float, times_faster: float) -> Picture:
