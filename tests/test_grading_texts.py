@@ -15,12 +15,14 @@ NAMES = """
 from scipy.special import exprel
 from decimal import Decimal
 import numpy as np, sympy as sp
-import wmrlib, wmrlib as wmr
+import wmrbook, wmrbook.data, wmrlib, wmrlib as wmr
+from wmrbook import stages
 from wmrbook.chapters import challenge
 from wmrbook.panel import Explorer
 starts, goals, gains = wmr.Pose([5.0, 6.0], 1.0, 0.0), wmr.Pose(0.0, 0.0, 0.0), wmr.GENTLE_GAINS
 paper = wmr.paper
 explorer, x, y, heading, goal = Explorer(), 1.0, 2.0, 0.3, goals
+start = wmr.Pose(5.0, 1.0, 0.0)
 seed = 2026
 """
 
