@@ -74,7 +74,7 @@ def test_a_page_opens_without_trouble_and_without_faults(name, scheme, opened, b
     browser_page.emulate_media(color_scheme=scheme)
     browser_page.set_viewport_size({"width": 1366, "height": 768})
     page = opened(name)
-    assert sum(path.stat().st_size for path in map(Path, loaded) if path.is_file()) < 4.1e6
+    assert sum(path.stat().st_size for path in map(Path, loaded) if path.is_file()) < 4.0e6
     assert page.locator("html").get_attribute("data-theme") == scheme
     assert page.locator("h1:visible").count() == 1
     assert page.locator("mjx-merror, .widget-error").count() == 0
