@@ -45,6 +45,7 @@ SOLUTION = re.compile(
     r"\n*<details><summary>Solution</summary>.*?</details>| Click \*\*1 cell hidden.*?solution\.",
     re.DOTALL,
 )
+IMPORTS = re.compile(r"(?:(?:import |from ).*\n?|\s*\n)+")
 WIDGET = re.compile(r'(?<=["_])widget-(?=\d{3}")')  # as run.py names them
 SPHINX = ("-j", "auto", "--fail-on-warning", "--keep-going", "--nitpicky", "--quiet")
 NO_NPM = (
@@ -202,7 +203,8 @@ def copy_sources(source: Path, lecturer: bool = False) -> None:
             without_solutions(notebook)
         told = sum("stage" in cell.metadata for cell in notebook.cells) > 1
         for cell in notebook.cells:
-            if cell.cell_type == "code" and not told:  # in scenes, with code that is read
+            # a chapter that is told in scenes has code that is read, but for what it imports
+            if cell.cell_type == "code" and (not told or IMPORTS.fullmatch(cell.source)):
                 cell.metadata.setdefault("tags", []).append("hide-input")
         nbformat.write(notebook, chapter)
 

@@ -80,6 +80,9 @@ SCENES = {
 }
 
 
+NARROW = 4.6  # inches, beside five options
+
+
 def scene_of(question: str) -> Picture | None:
     """Return the picture of a question's situation; None if it has none."""
     if question not in SCENES:
@@ -97,7 +100,7 @@ def scene_of(question: str) -> Picture | None:
     axes.set(xlim=(left - 0.9, right + 0.9), ylim=(low - 1.0, high + 0.6))
     shape = (high - low + 1.6) / (right - left + 1.8)
     figure.set_size_inches(5.6, 5.6 * min(max(shape, 0.68), 1.0))
-    return Picture(figure, alt)
+    return Picture(figure, alt, narrowest=NARROW)
 
 
 def names_of_angles() -> Picture:
@@ -110,6 +113,7 @@ def names_of_angles() -> Picture:
         "A robot and its goal, rho apart. Alpha turns from the robot's heading to the line of "
         "sight, here to the right and so negative; theta from the goal's heading to the line of "
         "sight, here to the left and positive.",
+        narrowest=NARROW,
     )
 
 

@@ -103,14 +103,22 @@ class Picture:
     figure : matplotlib's Figure, to change or save
     alt : str, for readers who don't see the figure, and for tests
     drives : Drives that the book's pages play over the picture
+    narrowest : inches; a picture beside a question may be narrower than one in a column of text
     """
 
-    def __init__(self, figure: Figure, alt: str, drives: Sequence[Drive] = ()) -> None:
+    def __init__(
+        self,
+        figure: Figure,
+        alt: str,
+        drives: Sequence[Drive] = (),
+        *,
+        narrowest: float = NARROWEST,
+    ) -> None:
         self.figure = figure
         self.alt = alt
         self.drives = drives
         width, height = figure.get_size_inches()
-        figure.set_size_inches(min(max(width, NARROWEST), WIDEST), min(height, TALLEST))
+        figure.set_size_inches(min(max(width, narrowest), WIDEST), min(height, TALLEST))
         _fill(figure)
         for text in figure.findobj(Text):  # those made after `new_figure` have matplotlib's font
             text.set_fontfamily(STYLE["font.family"])

@@ -37,7 +37,7 @@ def arrived_parked() -> tuple[str, list[Option], str]:
     return ask, cases("even" if even else best if through else None, options), why
 
 
-@question(1, "A flat map in metres", "Latitude and longitude swapped")
+@question(1, "When is a flat map good enough?", "Latitude and longitude swapped")
 def swapped_points() -> tuple[str, list[Option], str]:
     lat, apart = 60.0, 100.0
     start = wmr.GeoPoint(lat=lat, lon=11.0)
@@ -57,7 +57,7 @@ def swapped_points() -> tuple[str, list[Option], str]:
     return ask, numbers(wmr.haversine_distance(*swapped), mistaken, "{:.0f} m"), why
 
 
-@question(1, "The angle: bearing", "From a bearing to a heading")
+@question(1, "Which way is the goal?", "From a bearing to a heading")
 def bearing_and_heading() -> tuple[str, list[Option], str]:
     bearing_deg = 120.0
     here = wmr.GeoPoint(lat=33.0, lon=44.0)
@@ -76,7 +76,7 @@ def bearing_and_heading() -> tuple[str, list[Option], str]:
     return ask, numbers(right, mistaken, "{:.0f} deg"), why
 
 
-@question(2, "From the wheels to the twist", "About which point does it turn?")
+@question(2, "About which point does it turn?", "About which point does it turn?")
 def turning_centre() -> tuple[str, list[Option], str]:
     left, right, width = 0.6, 0.2, 0.5
     v, omega = wmr.wheels_to_twist(left, right, width)
@@ -92,7 +92,7 @@ def turning_centre() -> tuple[str, list[Option], str]:
     return ask, numbers(v / omega, mistaken, "{:.2f} m"), why
 
 
-@question(2, "What the wheels forbid", "Four short moves")
+@question(2, "Four moves, and little room", "Four short moves")
 def four_moves() -> tuple[str, list[Option], str]:
     drive, turn, pose = 0.5, math.radians(30.0), _East
     for v, omega in ((drive, 0.0), (0.0, turn), (-drive, 0.0), (0.0, -turn)):
@@ -112,7 +112,7 @@ def four_moves() -> tuple[str, list[Option], str]:
     return ask, cases((ahead, left), options), why
 
 
-@question(3, "Three numbers and a picture", "Which angles does it see?")
+@question(3, "Three numbers and their signs", "Which angles does it see?")
 def two_angles() -> tuple[str, list[Option], str]:
     goal = wmr.Pose(-10.0, 0.0, math.radians(-90.0))
     robot = wmr.Pose(0.0, 0.0, math.radians(135.0))
@@ -137,7 +137,7 @@ def two_angles() -> tuple[str, list[Option], str]:
     return ask, cases((alpha, theta), options), why
 
 
-@question(3, "Whose θ? Whose β?", "The wrong sign of the third angle")
+@question(3, "One angle, two signs", "The wrong sign of the third angle")
 def beta_or_theta() -> tuple[str, list[Option], str]:
     k_rho, k_alpha, k_beta, pose = 3.0, 8.0, -1.5, wmr.Pose(-3.0, 0.5, -0.3)
     for _ in range(1200):
