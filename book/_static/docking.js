@@ -2,46 +2,53 @@
 // that the section being read names. Elsewhere it opens the chapter, and returns where a section
 // shows it again.
 addEventListener('DOMContentLoaded', () => {
-  const article = document.querySelector('.bd-article');
-  const sections = [...(article?.querySelectorAll('section[class*="stage-"]') || [])];
-  if (sections.length < 2) return; // a single scene needs no place of its own
-  const wide = matchMedia('screen and (min-width: 1240px)'), root = document.documentElement;
+  const article = document.querySelector('.bd-article'),
+      sections = [...(article?.querySelectorAll('section[class*="stage-"]') || [])],
+      cell = article?.querySelector('.cell.tag_stage');
+  if (!cell || sections.length < 2) return; // a single scene needs no place of its own
+  const wide = matchMedia('screen and (min-width: 1240px)'), root = document.documentElement,
+      list = document.querySelector('#pst-primary-sidebar');
   const sceneOf = (section) => section.className.match(/\bstage-(\S+)/)[1];
-  let cell, stage, shown = null;
+  let stage = null, shown = null;
 
-  // The section that is read: the last whose beginning is above the middle of the window.
+  // The section that is read: the one that the address names while it stands at the window's head,
+  // otherwise the last whose beginning is above the middle. Before the first one, and where the
+  // stage is not beside the text, it is as the chapter opens.
   const read = () => {
-    const above = sections.filter((it) =>
-      it.getBoundingClientRect().top < 0.45 * innerHeight);
-    return above.length ? sceneOf(above.at(-1)) : '';
+    const top = (it) => it.getBoundingClientRect().top / innerHeight,
+        named = sections.find((it) => `#${it.id}` === decodeURIComponent(location.hash));
+    const now = named && Math.abs(top(named) - 0.1) < 0.15 ? named :
+      sections.filter((it) => top(it) < 0.45).at(-1);
+    return wide.matches && now ? sceneOf(now) : stage.opening;
   };
   const follow = () => {
-    if (!wide.matches || !stage) return;
+    if (!stage) return;
     const now = read();
-    if (now === shown) return;
+    if (now !== shown) stage.show(now);
     shown = now;
-    stage.show(now || stage.scenes[0]);
   };
+  const hideList = () => list?.classList.toggle('pst-sidebar-hidden', wide.matches);
   const dock = () => {
-    document.querySelector('#pst-primary-sidebar')?.classList
-        .toggle('pst-sidebar-hidden', wide.matches);
+    hideList();
     root.classList.toggle('docked', wide.matches);
     cell.classList.toggle('docked-stage', wide.matches);
-    shown = wide.matches ? shown : null;
     follow();
   };
   const begin = () => {
-    const first = article.querySelector('.wmr.stage');
-    if (!first?.stage) return false;
-    stage = first.stage;
-    cell = first.closest('.cell');
-    shown = ''; // as it opens
-    dock();
-    wide.addEventListener('change', dock);
-    addEventListener('scroll', () => requestAnimationFrame(follow), { passive: true });
+    ({ stage = null } = cell.querySelector('.wmr.stage') || {});
+    if (!stage) return false;
+    shown = stage.opening;
+    follow();
     return true;
   };
+  // At once, before the browser goes to the place that an address names.
+  dock();
+  wide.addEventListener('change', dock);
+  addEventListener('scroll', () => requestAnimationFrame(follow), { passive: true });
+  addEventListener('keydown', ({ key }) => {
+    if (key === 'Escape' && root.classList.contains('docked')) hideList();
+  });
   if (begin()) return;
   const waits = new MutationObserver(() => { if (begin()) waits.disconnect(); });
-  waits.observe(article, { childList: true, subtree: true });
+  waits.observe(cell, { childList: true, subtree: true });
 });

@@ -29,6 +29,25 @@ READ = """async () => {
 }"""
 
 
+# Where the section that the address names is, and what the stage shows there.
+ARRIVED = """() => [
+    document.querySelector(decodeURIComponent(location.hash)).getBoundingClientRect().top,
+    document.querySelector('.docked-stage .wmr.stage').dataset.scene,
+]"""
+IDS = """() => [...document.querySelectorAll('section[class*="stage-"]')].map(it => it.id)"""
+
+
+def settle(page) -> None:
+    """Wait until nothing on the page changes its height any more."""
+    page.wait_for_function(
+        """async () => {
+            const high = () => document.documentElement.scrollHeight, before = high();
+            await new Promise(done => setTimeout(done, 300));
+            return high() === before;
+        }"""
+    )
+
+
 def scenes(notebook) -> list[str]:
     """The scenes that the sections of a chapter name, in order."""
     return [cell.metadata["stage"] for cell in notebook.cells if "stage" in cell.metadata]
@@ -52,7 +71,7 @@ def test_every_chapter_opens_with_its_stage_on_the_first_screen(opened, browser_
         box = stage.locator("canvas").evaluate(BOX)
         assert 0 < box["top"] < 300, name
         assert box["bottom"] - box["top"] >= 300, name
-        assert min(box["bottom"], DESK["height"]) - box["top"] >= 300, name
+        assert stage.evaluate(BOX)["bottom"] <= DESK["height"], f"{name}: a handle is cut off"
         assert stage.locator(".stage-words[data-on=true]").inner_text().strip(), name
         assert all(width >= 240 for row in page.evaluate(SLIDERS) for width in row), name
 
@@ -83,3 +102,42 @@ def test_beside_the_text_the_stage_follows_the_reader(opened, browser_page):
     page.evaluate("scrollTo({ top: 0, behavior: 'instant' })")
     box = page.locator(".wmr.stage").first.evaluate(BOX)
     assert box["bottom"] - box["top"] <= TELEPHONE["height"] - 56, "picture and sliders on a screen"
+
+
+def test_a_docked_page_keeps_its_buttons_its_links_and_the_readers_place(opened, browser_page):
+    browser_page.set_viewport_size(DESK)
+    (name, notebook), *_ = CHAPTERS.items()
+    page = opened(f"notebooks/{name}.html")
+    names = page.evaluate(IDS)
+    page.locator(".secondary-toggle:visible").click()
+    link = page.locator("dialog[open] a", has_text="How far, and which way?")
+    link.wait_for()
+    page.keyboard.press("Escape")
+    link.wait_for(state="hidden")
+    page.locator(".primary-toggle:visible").click()
+    drawer = page.locator("#pst-primary-sidebar")
+    drawer.wait_for()
+    page.keyboard.press("Escape")
+    drawer.wait_for(state="hidden")
+
+    for wanted, section in list(zip(scenes(notebook), names, strict=True))[1::3]:
+        page.goto("about:blank")
+        page = opened(f"notebooks/{name}.html#{section}")
+        settle(page)
+        page.wait_for_function(f"() => ({ARRIVED})()[1] === {json.dumps(wanted)}")
+        top, _ = page.evaluate(ARRIVED)
+        assert 0 <= top < 0.45 * DESK["height"], section
+
+    page.evaluate("scrollTo({ top: 6000, behavior: 'instant' })")
+    other = list(CHAPTERS)[6]
+    page.goto(page.url.replace(name, other).partition("#")[0], wait_until="load")
+    page.go_back(wait_until="load")
+    settle(page)
+    assert abs(page.evaluate("scrollY") - 6000) < 60, "Back leads to where one was"
+
+    page.set_viewport_size({"width": 1200, "height": 768})
+    page.wait_for_selector("html:not(.docked)")
+    opening = page.locator(".wmr.stage").first.evaluate("it => it.stage.opening")
+    page.wait_for_function(
+        "wanted => document.querySelector('.wmr.stage').dataset.scene === wanted", arg=opening
+    )

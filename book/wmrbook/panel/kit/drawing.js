@@ -12,7 +12,7 @@ export { live } from './live.js';
 export { stage } from './stage.js';
 export { modes, polesOf, summarise } from './simulate.js';
 export { normals } from './random.js';
-export { goalFromNear, insetOf, insetSize } from './inset.js';
+export { cornerOf, goalFromNear, insetOf, insetSize } from './inset.js';
 export { inReach, onStops } from './controls.js';
 export { ratesOfV, twistOf } from './law.js';
 export { roundBelow } from './lawn.js';

@@ -4,6 +4,8 @@ import { ahead } from './numbers.js';
 import { inside } from './surface.js';
 import { sizeAt } from './scene.js';
 
+const GAP = 10; // px, to the edge
+
 /**
  * Draws the frame; `at` gives the place in the large picture for one in the small one, and
  * `within(draw)` keeps a drawing inside.
@@ -11,8 +13,8 @@ import { sizeAt } from './scene.js';
  * @param {number[]} xs @param {number[]} ys
  */
 export function insetOf(pane, side, { width, height }, [x0, x1], [y0, y1]) {
-  const { ctx, box, view } = pane, gap = 10;
-  const left = box.left + (side === 'left' ? gap : box.width - width - gap), top = box.top + gap;
+  const { ctx, box, view } = pane, top = box.top + GAP,
+      left = box.left + (side === 'left' ? GAP : box.width - width - GAP);
   ctx.fillStyle = pane.ink('paper');
   ctx.fillRect(left, top, width, height);
   ctx.strokeStyle = pane.ink('soft');
@@ -26,15 +28,22 @@ export function insetOf(pane, side, { width, height }, [x0, x1], [y0, y1]) {
   };
 }
 
-/** As large as there is room. @param {Pane} pane @param {number} most px */
+/** As large as there is room. @param {{ box: any }} pane @param {number} most px */
 export const insetSize = ({ box }, most) =>
     ({ width: Math.min(0.34 * box.width, most), height: Math.min(0.42 * box.height, most) });
 
+/** What an inset takes of a stage, with room around it. @param {any} size @param {number} most */
+export const cornerOf = (size, most, share = 1) => {
+  const { width, height } = insetSize({ box: size }, most);
+  return { width: width + 2 * GAP, height: share * height + 2 * GAP };
+};
+
 /**
- * A goal from near, and the robots there, each [pose, role, share]; `reach` metres to the edge.
+ * A goal from near, and the robots there, each [pose, role, share]; `reach` metres to the
+ * edge, and `most` pixels wide.
  * @param {Pane} pane @param {Pose} goal @param {any[]} robots
  */
-export function goalFromNear(pane, goal, robots, reach, most = 130) {
+export function goalFromNear(pane, goal, robots, reach, most) {
   const { width, height } = insetSize(pane, most), side = Math.min(width, height), [x, y] = goal;
   const inset = insetOf(pane, 'left', { width: side, height: side }, [x - reach, x + reach],
     [y - reach, y + reach]), size = sizeAt(side / 2 / reach);

@@ -30,6 +30,8 @@ const ease = (share) => share * share * (3 - 2 * share);
  *   say(values, found, setup): the results in the sentences, by name;
  *   look(values, found, setup, how): what the camera shows, [left, bottom, right, top] in metres,
  *     where that is neither all of the way ("whole") nor the goal ("near");
+ *   corner(values, found, size, scene): the { width, height } in pixels of a small picture that it
+ *     draws into the upper left corner, or nothing; the camera keeps out of it;
  *   draw(pane, values, found, now, setup): what is on the lawn beside paths and robots; `now` has
  *     the time, the scene, what it `shows`, the first robot's `pose` and its sample
  *     `k`, and the `poses` of all;
@@ -52,12 +54,13 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
     ...Object.fromEntries(setup.knobs.map(({ name: knob, value }) => [knob, value])) };
   let colours, found, ghost = null, view, frame = 0, holds = false;
   let at = 0, from = 0, began = 0; // the time shown, and where and when the film began
+  let wide = 0, fitted = false; // the width for which the words have their room
   let touched = false; // by a hand, since the scene began
+  const answers = {}; // what was answered, by scene
   let close = false, camera = null, flight = null; // what is seen, and from where the camera comes
 
   const scene = () => setup.scenes.find((it) => it.name === values().scene);
   const write = (changes) => model.set('state', { ...values(), ...changes });
-  const byHand = (changes) => { touched = true; write(changes); model.save_changes(); };
   const whole = () => Math.max(...found.tracks.map(({ t, n }) => t[n - 1])),
       end = () => scene().until * whole(); // where the film of this scene ends
 
@@ -112,20 +115,18 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
       return it;
     };
     const asked = ask && put(`${ask.question} `, 'ask');
-    const answers = (ask ? ask.answers : []).map(([answer, verdict], k) => {
+    const verdicts = (ask ? ask.answers : []).map(([answer, verdict], k) => {
       const chip = made(asked, 'button', { type: 'button', className: 'stage-chip' });
       putText(chip, answer);
       chip.addEventListener('click', () => {
         ghost = found.tracks[0];
-        byHand({ answer: k, ...ask.then });
-        refresh();
-        from = close ? Math.max(0, nearTime()) : 0;
-        film();
+        answerWith(k);
+        model.save_changes();
         again.focus({ preventScroll: true }); // the chip has gone
       });
       return put(`${k === ask.key ? 'Yes: ' : 'No: '}${verdict}`, 'verdict');
     });
-    return { of, plain: put(says, 'says'), asked, answers, results };
+    return { of, plain: put(says, 'says'), asked, verdicts, results };
   }
   // A choice among a few is a row of chips.
   function putChoice({ name: knob, choices, says, label }) {
@@ -138,8 +139,8 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
           { type: 'button', className: 'stage-chip', textContent: text });
       chip.addEventListener('click', () => {
         ghost = found.tracks[0];
-        byHand({ [knob]: value });
-        refresh();
+        moved({ [knob]: value });
+        model.save_changes();
         film();
       });
       return [value, chip];
@@ -148,11 +149,21 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
       chip.setAttribute('aria-pressed', String(now[knob] === value)));
   }
 
-  // A hand has moved something: the whole way is seen at once.
+  // A verdict is of what was asked: the handles go where the question put them, and from there.
+  function answerWith(k) {
+    const { name: of, to, ask } = scene();
+    answers[of] = k;
+    touched = true;
+    write({ ...home, ...to, ...ask.then, answer: k });
+    refresh();
+    from = close ? Math.max(0, nearTime()) : 0;
+    film();
+  }
+  // A hand has moved something: the whole way is seen at once, and a verdict goes.
   function moved(changes) {
     const { answer } = values();
     touched = true;
-    write({ ...changes, answer: answer === null ? null : -1 }); // a verdict is of what was asked
+    write({ ...changes, answer: answer === null ? null : -1 });
     began = 0;
     refresh();
     at = end();
@@ -193,7 +204,8 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
     if (first) close = next.look === 'near'; else fly(next.look === 'near');
     if (next.look === 'other') fly(false);
     from = next.look === 'near' ? nearTime() : 0;
-    if (next.still) { began = 0; at = next.ask ? end() : 0; schedule(); } else film();
+    if (of in answers) answerWith(answers[of]);
+    else if (next.still) { began = 0; at = next.ask ? end() : 0; schedule(); } else film();
   }
 
   function schedule() { if (!frame) frame = requestAnimationFrame(draw); }
@@ -207,10 +219,15 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
         Math.max(...ys) + MARGIN];
   }
   // Where the camera is: its middle and how many pixels a metre has.
-  function aimed({ width, height }) {
-    const [left, bottom, right, top] = boxNow();
-    const scale = Math.min(width / (right - left), (height - FOOT) / (top - bottom));
-    return { x: (left + right) / 2, y: (bottom + top - FOOT / scale) / 2, scale };
+  function aimed(size) {
+    const { width, height } = size, [left, bottom, right, top] = boxNow(),
+        corner = !close && play.corner && play.corner(values(), found, size, scene());
+    // beside a small picture in the upper left corner, or below it, where there is more room
+    const rooms = corner ? [[corner.width, 0], [0, corner.height]] : [[0, 0]];
+    const [scale, aside, down] = rooms.map(([x, y]) => [Math.min((width - x) / (right - left),
+        (height - FOOT - y) / (top - bottom)), x, y]).sort(([one], [other]) => other - one)[0];
+    return { x: (left + right - aside / scale) / 2, y: (bottom + top + (down - FOOT) / scale) / 2,
+      scale };
   }
   function seen(now, size) {
     const to = aimed(size);
@@ -272,10 +289,10 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
   }
   function tell() {
     const state = values(), results = play.say(state, found, setup);
-    for (const { of, plain, asked, answers, results: places } of words) {
-      const now = of === state.scene, verdict = answers[state.answer];
+    for (const { of, plain, asked, verdicts, results: places } of words) {
+      const now = of === state.scene, verdict = verdicts[state.answer];
       const chosen = verdict || (asked && state.answer === null ? asked : plain);
-      for (const it of [plain, asked, ...answers].filter(Boolean)) {
+      for (const it of [plain, asked, ...verdicts].filter(Boolean)) {
         const on = now && it === chosen;
         if (on === (it.dataset.on === 'true')) continue;
         it.dataset.on = String(on);
@@ -283,7 +300,7 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
         it.setAttribute('aria-hidden', String(!on));
       }
       for (const [result, place] of places) {
-        const text = String(results[result]).replace(' ', '\u00a0'); // a number and its unit
+        const text = String(results[result]).replace(/(\d) /g, '$1\u00a0'); // a number, its unit
         if (place.textContent !== text) place.textContent = text;
       }
     }
@@ -294,23 +311,37 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
       say.querySelector('[data-on="true"]').textContent}`);
     root.dataset.done = String(!began && !flight);
     root.dataset.scene = state.scene;
+    if (!fitted) fit();
+  }
+  // The words keep the room that the longest takes as it opens: a longer result lies on the lawn.
+  function fit() {
+    fitted = true;
+    say.style.height = '';
+    say.style.height = `${say.getBoundingClientRect().height}px`;
   }
 
   // It drives when it comes into view, unless a hand has moved something.
   const replay = () => { if (!touched && !scene().still) film(); };
-  root.stage = { show, play: replay, scenes: setup.scenes.map((it) => it.name) };
+  root.stage = { show, play: replay, opening: values().scene };
   root.found = () => found; // for tests
   show(values().scene, true);
   const eye = new IntersectionObserver(([{ isIntersecting }]) => {
     if (isIntersecting) root.stage.play();
   }, { threshold: 0.3 });
   eye.observe(host);
+  const unfit = () => { fitted = false; schedule(); };
+  const width = new ResizeObserver(([{ contentRect }]) => {
+    if (contentRect.width !== wide) { wide = contentRect.width; unfit(); }
+  });
+  width.observe(root);
+  document.fonts.ready.then(unfit);
   const page = repainted(root, [canvas], (read) => { colours = read; schedule(); });
   const heard = () => { refresh(); schedule(); };
   model.on('change:state', heard);
   return () => {
     page.stop();
     eye.disconnect();
+    width.disconnect();
     cancelAnimationFrame(frame);
     model.off('change:state', heard);
   };

@@ -95,6 +95,7 @@ type Play = {
   find(values: Values, setup: any): any;
   say(values: Values, found: any, setup: any): Record<string, string | number>;
   look?(values: Values, found: any, setup: any, how: string): number[] | null;
+  corner?(values: Values, found: any, size: any, scene: any): any;
   draw?(pane: Pane, values: Values, found: any, now: any, setup: any): void;
   above?(pane: Pane, values: Values, found: any, now: any, setup: any): void;
 };

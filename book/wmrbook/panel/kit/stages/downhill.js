@@ -1,11 +1,12 @@
 // Chapter 4: seven robots drive to one goal; in a corner the number V of each falls.
 
 import {
-  freshRun, gainsOf, inDegrees, insetOf, insetSize, remembered, stage, wrap, written,
+  cornerOf, freshRun, gainsOf, inDegrees, insetOf, insetSize, remembered, stage, wrap, written,
 } from '../drawing.js';
 
 const ROOM = 6; // m, from the goal to the edge
 const DT = 0.15; // s, between two samples
+const MOST = 210, FLAT = 0.72; // px, of the corner's picture, and its height to that
 const ALONE = ['bowl', 'parts']; // scenes with one robot
 const own = remembered(freshRun), others = remembered(({ starts, ...options }) =>
     starts.map((start) => freshRun({ start, ...options })));
@@ -28,6 +29,8 @@ export default stage('downhill', {
     const [far, up] = [0, 1].map((i) => Math.max(ROOM, Math.abs(start[i] - goal[i]) + 1));
     return [goal[0] - far, goal[1] - up, goal[0] + far, goal[1] + up];
   },
+  corner: (values, found, size, { shows }) =>
+      (shows.includes('errors') ? null : cornerOf(size, MOST, FLAT)),
   say: (values, { parked, rises, runs: [run] }) => ({
     parked, rises: rises ? 'rises' : 'never rises',
     distance: written(run.rho[0], 'm'), alpha: inDegrees(run.alpha[0], 0),
@@ -41,11 +44,11 @@ export default stage('downhill', {
   },
   above(pane, values, { runs: all }, { time, shows }) {
     if (shows.includes('errors')) return; // before the drive
-    const { width, height } = insetSize(pane, 210), parts = shows.includes('parts');
+    const { width, height } = insetSize(pane, MOST), parts = shows.includes('parts');
     const runs = parts ? all.slice(0, 1) : all;
     const most = Math.max(...runs.map(({ V }) => V[0]), 1e-9),
         last = Math.max(...runs.map(({ t, n }) => t[n - 1]), 1e-9);
-    const inset = insetOf(pane, 'left', { width, height: 0.72 * height },
+    const inset = insetOf(pane, 'left', { width, height: FLAT * height },
       [-0.06 * last, 1.03 * last], [-0.1 * most, 1.1 * most]);
     inset.within(() => {
       pane.line([[last, 0], [0, 0], [0, 1.1 * most]].map(inset.at), 'soft', { width: 1 });

@@ -1,11 +1,12 @@
 // Chapter 5: the paper's robot and another one, which both stop at the same distance.
 
 import {
-  DEGREES, driven, endOf, freshRun, gainsOf, goalFromNear, inDegrees, remembered, stage, wrap,
-  written,
+  DEGREES, cornerOf, driven, endOf, freshRun, gainsOf, goalFromNear, inDegrees, remembered, stage,
+  wrap, written,
 } from '../drawing.js';
 
 const papers = remembered(freshRun), CLOSE = 60; // px a metre, seen from near
+const MOST = 170; // px, of the corner's picture
 const LOOKS = [['path', 0.8], ['ghost', 1]]; // yours and theirs
 
 export default stage('two_drives', {
@@ -16,6 +17,7 @@ export default stage('two_drives', {
     return { yours, theirs, tracks: [yours, theirs].map((run, k) =>
       ({ ...run, role: LOOKS[k][0], share: LOOKS[k][1] })) };
   },
+  corner: (values, found, size) => cornerOf(size, MOST),
   say: ({ start, goal }, { yours, theirs }) => ({
     yours: endOf(yours, goal), theirs: endOf(theirs, goal),
     distance: written(theirs.rho[0], 'm', 4), from: inDegrees(start[2], 0),
@@ -43,7 +45,7 @@ export default stage('two_drives', {
   above(pane, { goal }, { theirs }, { done, poses }) {
     const off = wrap(theirs.heading[theirs.n - 1] - goal[2]);
     if (pane.view.scale < CLOSE)
-      goalFromNear(pane, goal, poses.map((pose, k) => [pose, ...LOOKS[k]]).reverse(), 0.7, 170);
+      goalFromNear(pane, goal, poses.map((pose, k) => [pose, ...LOOKS[k]]).reverse(), 0.7, MOST);
     else if (done)
       pane.angle(goal[0], goal[1], goal[2], off, inDegrees(Math.abs(off), 0), 'ghost', 112);
   },

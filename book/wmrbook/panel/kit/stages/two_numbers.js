@@ -1,10 +1,12 @@
 // Chapter 6: a drive whose unit of length is 1/k_rho, and where its two numbers lie.
 
 import {
-  driven, endOf, gainsOf, inWords, insetOf, insetSize, modes, stage, summarise, within, written,
+  cornerOf, driven, endOf, gainsOf, inWords, insetOf, insetSize, modes, stage, summarise, within,
+  written,
 } from '../drawing.js';
 
 const MOST = [8, 6]; // of kappa and h, in the corner
+const CORNER = 170; // px, of its picture
 const DT = 0.03, DURATION = 60; // in units of 1/(v_max k_rho)
 
 export default stage('two_numbers', {
@@ -18,6 +20,7 @@ export default stage('two_numbers', {
       inside: kappa > 2 && kappa < 1 + gains.h, tracks: [{ ...run, role: 'path' }] };
   },
   look: (values, { unit }) => [-4.4, -3.2, 1.6, 1.6].map((edge) => edge * unit),
+  corner: (values, found, size) => cornerOf(size, CORNER),
   say: ({ h, goal }, { run, kappa, inside }) => ({
     kappa: written(kappa), height: inWords(h), ends: endOf(run, goal),
     metres: written(summarise(run).pathLength, 'm'),
@@ -25,7 +28,7 @@ export default stage('two_numbers', {
   }),
   draw(pane, values, { start: [x, y] }) { pane.dot(x, y, 'start', { hollow: true }); },
   above(pane, { h }, { kappa, inside }) {
-    const inset = insetOf(pane, 'left', insetSize(pane, 170), [-0.6, MOST[0]], [-0.6, MOST[1]]);
+    const inset = insetOf(pane, 'left', insetSize(pane, CORNER), [-0.6, MOST[0]], [-0.6, MOST[1]]);
     inset.within(() => {
       pane.area([[2, 1], [2, MOST[1]], [1 + MOST[1], MOST[1]]].map(inset.at), 'start', 0.3);
       pane.line([[MOST[0], 0], [0, 0], [0, MOST[1]]].map(inset.at), 'soft', { width: 1 });
