@@ -70,8 +70,9 @@ TRIED = """async ({ knobs, scenes, poses }) => {
     async function look(at, answer = null) {
         await frame();
         const on = say.querySelector('[data-on=true]'), shown = on.dataset.kind;
-        report.push({ at, answer, shown, words: on.textContent, text: say.textContent, trouble: trouble.textContent,
-            high: [say.offsetHeight, root.offsetHeight], alt: canvas.ariaLabel });
+        report.push({ at, answer, shown, words: on.textContent, text: say.textContent,
+            trouble: trouble.textContent, high: [say.offsetHeight, root.offsetHeight],
+            alt: canvas.ariaLabel });
     }
     const put = ({ name, choices }, value) => {
         const row = root.querySelector(`[data-control=${name}]`);

@@ -34,8 +34,9 @@ def course_from_gps(scene: str = "whole") -> Stage:
             look="other",
             still=True,
             ask=Question(
-                "{far} apart, two fixes leave its heading open by {off}. Twice as far apart?",
-                dict.fromkeys(shares, "two fixes {far} apart tell it to {off}."),
+                "{far} apart, two fixes leave its heading open by {off}. How much do they leave "
+                "at twice the distance?",
+                dict.fromkeys(shares, "two fixes {far} apart leave it open by {off}."),
                 min(shares, key=lambda answer: abs(shares[answer] - after / before)),
                 {"far": 2 * FAR},
             ),

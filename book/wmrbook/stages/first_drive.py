@@ -26,7 +26,11 @@ def first_drive(scene: str = "whole") -> Stage:
 
     double = 2 * gains.k_alpha
     before, after = ends_off(gains.k_alpha), ends_off(double)
-    seen = f"{{off}} instead of {before:.0f}°. Does it go on like this? Move it further."
+    key = "better" if after < before - 1 else "worse" if after > before + 1 else "the same"
+    verdict = (
+        f"it is {key}, {{off}} off instead of {before:.0f}°. Does it go on like this? Move it "
+        "further."
+    )
     scenes = {
         "whole": Scene(
             "Two GPS points, two headings, and three numbers that you hold. Can it park? " + ENDS
@@ -59,13 +63,9 @@ def first_drive(scene: str = "whole") -> Stage:
             look="near",
             still=True,
             ask=Question(
-                "If *k_alpha* doubles, the heading on arrival is",
-                {
-                    "better": f"better, {seen}",
-                    "worse": f"it is better, {seen}",
-                    "the same": f"it is better, {seen}",
-                },
-                "better" if after < before - 1 else "worse" if after > before + 1 else "the same",
+                "If *k_alpha* doubles, how is the heading on arrival?",
+                dict.fromkeys(("better", "worse", "the same"), verdict),
+                key,
                 {"k_alpha": double},
             ),
         ),

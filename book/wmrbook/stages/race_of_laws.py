@@ -29,7 +29,7 @@ def race_of_laws(scene: str = "whole") -> Stage:
             still=True,
             ask=Question(
                 "Five laws, one start, and the same wheels. Whose robot is there first?",
-                dict.fromkeys(NAMES.values(), "{other} {theirs}, the corrected law {ours}."),
+                dict.fromkeys(NAMES.values(), "{other} {theirs}, and the corrected law {ours}."),
                 NAMES[first],
                 {"law": first} if first in OTHERS else {},
             ),

@@ -31,10 +31,10 @@ def seam(scene: str = "whole") -> Stage:
             ends,
             still=True,
             ask=Question(
-                "Which of the two has the larger V at its start?",
+                "Which of the two has the larger *V* at its start?",
                 dict.fromkeys(
                     ("blue", "pink", "nearly the same"),
-                    "blue's is {blue_value} and pink's {pink_value}.",
+                    "*V* is {blue_value} for blue and {pink_value} for pink.",
                 ),
                 "nearly the same" if alike else "blue" if left > right else "pink",
             ),

@@ -50,8 +50,11 @@ def standing_still(scene: str = "whole") -> Stage:
             still=True,
             to={"seconds": short},
             ask=Question(
-                "They stray by up to {far}. And their means over half a minute, by",
-                dict.fromkeys(shares, "by {left}. Its errors last, so fixes in a row err alike."),
+                "The fixes stray by up to {far}. How much of that is left in their means over half "
+                "a minute?",
+                dict.fromkeys(
+                    shares, "they stray by {left}. An error lasts, so fixes in a row err alike."
+                ),
                 min(shares, key=lambda answer: abs(shares[answer] - left)),
                 {"seconds": long},
             ),

@@ -305,7 +305,7 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
       }
     }
     const places = Object.fromEntries(setup.knobs.map((it) => [it.name, state[it.name]]));
-    showRows.forEach((each) => each(places));
+    showRows.forEach((showRow) => showRow(places));
     nearer.textContent = close ? 'The whole way' : 'The last metre';
     canvas.setAttribute('aria-label', `A lawn from above. ${
       say.querySelector('[data-on="true"]').textContent}`);
