@@ -26,7 +26,7 @@ def two_drives(scene: str = "whole") -> Stage:
         "whole": Scene(f"Both arrive. Which one parks? {CAME}"),
         "given": Scene(
             "All that the paper gives: a start that faces {from} from east, a goal {distance} away "
-            "that should be reached facing {to}, a speed limit and three gains.",
+            "that should be reached facing {to}, a speed limit, three gains and a time step.",
             still=True,
         ),
         "drives": Scene(
