@@ -132,8 +132,8 @@ def _driven(log, width: float, dt: float, side: int = 1, turned: float | None = 
 
 
 @exercise
-def back_to_the_pose(pose: Callable, there: Any = None) -> str:
-    """3.4: pose(rho, alpha, theta, goal) returns (x, y, heading); `there`: m, m, deg of the log."""
+def back_to_the_pose(pose: Callable, colleague: Any = None) -> str:
+    """3.4: pose(rho, alpha, theta, goal) returns (x, y, heading); `colleague`: m, m, deg."""
     own_work(pose)
     bounds = (0.1, 9.0), (-3.0, 3.0), (-3.0, 3.0), (-5.0, 5.0), (-5.0, 5.0), (-3.0, 3.0)
     for far, ahead, beside, *at in drawn(3, 20, *bounds):
@@ -157,7 +157,7 @@ def back_to_the_pose(pose: Callable, there: Any = None) -> str:
             hint = "the place is right, the heading is not: the line of sight's less alpha."
             expect(math.dist(value[:2], right[:2]) >= 1e-7, hint)
             raise Hint("the way back misses: draw the line of sight first.")
-    *place, degrees = numbers("The function is right. `there`", there, 3)
+    *place, degrees = numbers("The function is right. `colleague`", colleague, 3)
     north, log = Pose(0.0, 0.0, math.pi / 2), (5.0, math.radians(-20.0))
     turned = math.radians(degrees)
     mistakes = {
