@@ -15,6 +15,7 @@ from faults import violations
 from host import TRAITS, mounted
 
 from wmrbook import stages
+from wmrbook.ellipsoid import sphere_error
 from wmrbook.panel.kit import sources
 from wmrbook.stages.parts import off_heading
 from wmrlib import (
@@ -26,6 +27,7 @@ from wmrlib import (
     destination_point,
     haversine_distance,
     initial_bearing,
+    local_position,
     modes,
     paper,
     polar_error,
@@ -305,6 +307,35 @@ def test_a_stage_says_what_wmrlib_computes(browser_page):
         said = said.replace("\N{NO-BREAK SPACE}", " ")
         assert re.search(truth(), said), f"{name}: {said}, not {truth()}"
         assert not panel.troubled()
+
+
+@pytest.mark.parametrize("digits", [3, 4, 6])
+def test_degrees_and_metres_of_a_stage_are_of_the_digits_that_it_shows(browser_page, digits):
+    origin, goal = (
+        GeoPoint(lat=round(it.lat, digits), lon=round(it.lon, digits))
+        for it in (paper.GPS_POINT_1, paper.GPS_POINT_2)
+    )
+    east, north = local_position(origin, goal)
+    panel = mounted(browser_page, stages.gps_points("degrees"), width=620).set(digits=digits)
+    latitudes, longitudes = (
+        f"{there - here:.{digits}f}°, which is (.*?) m"
+        for here, there in ((origin.lat, goal.lat), (origin.lon, goal.lon))
+    )
+    metres = re.search(f"differ by {latitudes}.*longitudes by {longitudes}", _words(browser_page))
+    assert [float(it) for it in metres.groups()] == pytest.approx([north, east], abs=0.06)
+    panel.set(scene="line", digits=digits)
+    length = re.search("line to the goal is (.*?) m long", _words(browser_page))
+    assert float(length.group(1)) == pytest.approx(math.hypot(east, north), abs=0.06)
+
+
+@pytest.mark.parametrize(("x", "y", "nearer"), [(9.7, 57.25, "nearer to"), (60, 5, "farther from")])
+def test_a_stage_says_how_much_farther_the_sphere_is_than_the_ellipsoid(browser_page, x, y, nearer):
+    origin = paper.GPS_POINT_1
+    far, bearing = math.hypot(x, y), math.atan2(x, y)
+    off = 100 * far * abs(1 - 1 / (1 + sphere_error(origin.lat, bearing)))
+    mounted(browser_page, stages.gps_points("ellipsoid"), width=620).set(goal=[x, y, 0.0])
+    centimetres = re.search(f"and (.*?) cm {nearer} the start", _words(browser_page)).group(1)
+    assert float(centimetres) == pytest.approx(off, abs=0.06)
 
 
 def test_a_stage_drives_with_the_wrong_sign_as_wmrlib_does(browser_page):

@@ -20,10 +20,11 @@ def gps_points(scene: str = "whole") -> Stage:
     """Return the paper's two points with as many digits as a reader leaves them, as a scene."""
     origin = paper.GPS_POINT_1
     enough = next(n for n in range(FEWEST, MOST + 1) if _worst(origin, n) < CENTIMETRE)
+    most = math.ceil(1000 * _worst(origin, enough))  # mm
+    less = math.floor(1000 * _worst(origin, enough - 1))  # mm
     verdict = (
-        f"wherever the goal is, {enough} digits miss it by less than {_millimetres(enough)} mm, "
-        f"and {enough - 1} may miss it by {_millimetres(enough - 1)} mm. Here they miss it by "
-        "{miss}."
+        f"wherever the goal is, {enough} digits miss it by less than {most} mm, and {enough - 1} "
+        f"may miss it by {less} mm. Here {{digits}} digits miss it by {{miss}}."
     )
     scenes = {
         "whole": Scene(
@@ -31,8 +32,8 @@ def gps_points(scene: str = "whole") -> Stage:
             f"{TOLD}."
         ),
         "degrees": Scene(
-            "The latitudes differ by {dlat}, which is {north}. The longitudes differ by {dlon}, "
-            "which is {east}.",
+            "With {digits} digits the latitudes differ by {dlat}, which is {north}, and the "
+            "longitudes by {dlon}, which is {east}.",
             shows=("legs",),
             to=PRINTED,
             still=True,
@@ -50,13 +51,15 @@ def gps_points(scene: str = "whole") -> Stage:
             ),
         ),
         "line": Scene(
-            "The line to the goal is {rho} long, and it begins at {course} from north, clockwise.",
+            "With {digits} digits the line to the goal is {rho} long, and it begins at {course} "
+            "from north, clockwise.",
             shows=("line",),
             to=PRINTED,
             still=True,
         ),
         "ellipsoid": Scene(
-            "The last metre. On the ellipsoid the goal lies {gap} from where the sphere puts it.",
+            "On the ellipsoid the goal lies {gap} from where the sphere puts it, and {nearer} the "
+            "start.",
             look="near",
             shows=("ellipsoid",),
             to={"digits": MOST},
@@ -82,7 +85,3 @@ def _worst(point: GeoPoint, digits: int) -> float:
     half = 0.5 * 10.0**-digits
     away = GeoPoint(lat=point.lat + half, lon=point.lon + half)
     return math.hypot(*local_position(point, away))
-
-
-def _millimetres(digits: int) -> int:
-    return math.ceil(1000 * _worst(paper.GPS_POINT_1, digits))

@@ -35,44 +35,51 @@ function lattice(pane, [x, y], [east, north], [left, right, bottom, top], at) {
 const bearingOf = (east, north) => (Math.hypot(east, north) < 1e-3 ? 'any angle'
     : `${((Math.atan2(east, north) * DEGREES + 360) % 360).toFixed(1)}°`);
 
+const comparedFrom = (metres) =>
+  `${lengthText(Math.abs(metres))} ${metres < 0 ? 'farther from' : 'nearer to'}`;
+
 export default stage('gps_points', {
   find({ start, goal, digits }, { data }) {
     const count = Math.round(digits), shown = (place) =>
       degreesOf(place, data).map((value) => value.toFixed(count));
-    const told = placeOf(shown(goal).map(Number), data), { gains } = data;
+    const [began, told] = [start, goal].map((place) => placeOf(shown(place).map(Number), data)),
+        { gains } = data;
     const apart = shown(goal).map((value, row) =>
-      `${(Number(value) - Number(shown(start)[row])).toFixed(count)}°`);
+      `${(Number(value) - Number(shown(start)[row])).toFixed(count).replace('-', '−')}°`);
     const run = driven({ start, goal: [...told, goal[2]], gains, arrivalRadius: 0.002 });
-    return { count, told, apart, labels: [shown(start), shown(goal)],
+    return { count, began, told, apart, labels: [shown(start), shown(goal)],
       steps: data.metres.map((metres) => metres * 10 ** -count),
       miss: Math.hypot(told[0] - goal[0], told[1] - goal[1]), tracks: [{ ...run, role: 'path' }] };
   },
-  look({ start, goal }, { told }) {
-    const [xs, ys] = [0, 1].map((i) => [start[i], goal[i], told[i]]);
+  look({ start, goal }, { began, told }) {
+    const [xs, ys] = [0, 1].map((i) => [start, goal, began, told].map((place) => place[i]));
     return [Math.min(...xs) - MARGIN, Math.min(...ys) - BELOW, Math.max(...xs) + MARGIN,
       Math.max(...ys) + MARGIN];
   },
-  say: ({ start, goal }, { count, miss, told, apart: [dlat, dlon] }, { data }) => ({
+  say: ({ start, goal }, { count, miss, began, told, apart: [dlat, dlon] }, { data }) => ({
     digits: count, miss: lengthText(miss), dlat, dlon,
-    east: written(told[0] - start[0], 'm'), north: written(told[1] - start[1], 'm'),
-    rho: written(Math.hypot(told[0] - start[0], told[1] - start[1]), 'm', 4),
-    course: bearingOf(told[0] - start[0], told[1] - start[1]),
-    gap: lengthText(dist(told, onEllipsoid(told, data))),
-    distance: written(Math.hypot(goal[0] - start[0], goal[1] - start[1]), 'm'),
+    east: written(told[0] - began[0], 'm'), north: written(told[1] - began[1], 'm'),
+    rho: written(dist(began, told), 'm', 4),
+    course: bearingOf(told[0] - began[0], told[1] - began[1]),
+    gap: lengthText(dist(goal, onEllipsoid(goal, data))),
+    nearer: comparedFrom(dist(start, goal) - dist(start, onEllipsoid(goal, data))),
+    distance: written(dist(start, goal), 'm'),
     bearing: bearingOf(goal[0] - start[0], goal[1] - start[1]),
   }),
-  draw(pane, { start }, { told, steps: [north, east], count, apart: [dlat, dlon] }, { shows }) {
-    const corner = [told[0], start[1]];
+  draw(pane, values, { began, told, steps: [north, east], count, apart: [dlat, dlon] },
+      { shows }) {
+    const corner = [told[0], began[1]];
     if (shows.includes('legs')) {
-      pane.line([start, corner, told], 'ink', { width: 1.5, dash: [6, 4] });
-      pane.text(dlon, (start[0] + corner[0]) / 2, start[1], { dy: -30, align: 'center' });
-      pane.text(dlat, told[0], (start[1] + told[1]) / 2, { dx: 10 });
+      pane.line([began, corner, told], 'ink', { width: 1.5, dash: [6, 4] });
+      for (const place of [began, told]) pane.dot(...place, 'ink', { size: 4 });
+      pane.text(dlon, (began[0] + corner[0]) / 2, began[1], { dy: -30, align: 'center' });
+      pane.text(dlat, told[0], (began[1] + told[1]) / 2, { dx: 10 });
     }
     if (shows.includes('line')) {
-      pane.line([start, [start[0], told[1]]], 'soft', { width: 1.5, dash: [6, 4] });
-      pane.text('north', start[0], told[1], { role: 'soft', dy: 10, align: 'center' });
-      pane.line([start, told], 'rho', { width: 2.5 });
-      pane.text('ρ', (start[0] + told[0]) / 2, (start[1] + told[1]) / 2,
+      pane.line([began, [began[0], told[1]]], 'soft', { width: 1.5, dash: [6, 4] });
+      pane.text('north', began[0], told[1], { role: 'soft', dy: 10, align: 'center' });
+      pane.line([began, told], 'rho', { width: 2.5 });
+      pane.text('ρ', (began[0] + told[0]) / 2, (began[1] + told[1]) / 2,
           { role: 'rho', dx: 12, size: 18 });
     }
     if (shows.length || !showsLattice(pane, north)) return;
@@ -82,8 +89,8 @@ export default stage('gps_points', {
   },
   above(pane, { start, goal }, { told, labels, steps: [north, east] }, { size, shows }, { data }) {
     if (shows.includes('ellipsoid')) {
-      const place = onEllipsoid(told, data);
-      pane.line([told, place], 'rising', { width: 3 });
+      const place = onEllipsoid(goal, data);
+      pane.line([goal, place], 'rising', { width: 3 });
       pane.dot(...place, 'rising', { size: 5 });
       pane.text('on the ellipsoid', ...place, { role: 'rising', dy: -44, align: 'center' });
     }
