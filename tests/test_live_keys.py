@@ -34,7 +34,6 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "stopping simulate": _uphill,
     "bearing local_position": lambda f: lambda *to: (f(*to)[0], -f(*to)[1]),
     "flat_map local_position": lambda f: lambda *to: (f(*to)[0], -f(*to)[1]),
-    "turning_centre wheels_to_twist": lambda f: lambda a, b, c: f(b, a, c),
     "one_step advance": lambda f: _to_the_right(f, "euler"),
     "polar_angles polar_error": lambda f: lambda *a: f(*a)._replace(alpha=-f(*a).alpha),
     "half_turn simulate": lambda f: lambda a, b, k, **o: f(_turned(a), b, k, **o),

@@ -55,6 +55,9 @@ FLIPS = {  # what a stage's module takes from wmrlib, and the same with a flippe
     "first_drive simulate": lambda f: lambda a, b, k, **o: f(a, b, _turned_twice(k), **o),
     "gps_points local_position": lambda f: lambda a, b: (10 * f(a, b)[0], 10 * f(a, b)[1]),
     "two_wheels advance": lambda f: lambda *to: f(*to)._replace(y=-f(*to).x),
+    "two_wheels wheels_to_twist": lambda f: (
+        lambda left, right, track_width: f(right, left, track_width)
+    ),
     "three_numbers simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(h=2.0), **o),
     "three_numbers control_law": lambda f: lambda r, a, theta, k: f(r, a, -theta, k),
     "downhill lyapunov": lambda f: lambda *a: -f(*a),

@@ -191,7 +191,6 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused(emptied_page):
     ("name", "handle", "key", "knob", "sign"),
     [
         ("late", "set_off", "ArrowUp", "set_off", 0),
-        ("turning_centre", "left", "ArrowRight", "left", 1),
         ("lag", "predicted", "ArrowUp", "k_rho", -1),  # a longer distance is a gentler pull
         ("poles", "pole-0", "ArrowUp", "h", 1),
     ],
@@ -232,12 +231,12 @@ def test_a_hand_stops_what_plays(emptied_page):
 
 
 def test_python_moves_a_figure_and_refuses_what_is_not_allowed():
-    thing = live.turning_centre()
-    thing["left"] = 1.25
-    assert thing["left"] == thing.state["left"] == 1.25
+    thing = live.one_step()
+    thing["dt"] = 1.25
+    assert thing["dt"] == thing.state["dt"] == 1.25
     for name, value, message in (
-        ("left", 9.0, "left"),
-        ("left", math.nan, "left"),
+        ("dt", 9.0, "dt"),
+        ("dt", math.nan, "dt"),
         ("on", 1.0, "knob"),
     ):
         with pytest.raises(ValueError, match=f"{message} = .* is not allowed"):

@@ -105,13 +105,6 @@ def half_turn(values, results, data) -> None:
     np.testing.assert_allclose(results["run"]["y"], -mirrored.y, atol=AGREES)
 
 
-def turning_centre(values, results, data) -> None:
-    v, omega = wmr.wheels_to_twist(values["left"], values["right"], data["track"])
-    assert (results["v"], results["omega"]) == pytest.approx((v, omega), abs=1e-12)
-    if omega:  # the wheels roll round that point
-        assert omega * (results["centre"] - data["track"] / 2) == pytest.approx(values["left"])
-
-
 def poles(values, results, data) -> None:
     gains = wmr.Gains(data["k_rho"], values["k_alpha"], values["h"], data["v_max"])
     pace = gains.k_rho * gains.v_max

@@ -20,14 +20,6 @@ def flat_map(results):
     return near < 1e-3, far / near == pytest.approx(1e4, rel=0.01), north > far, level < 1e-3 * far
 
 
-def turning_centre(results):
-    straight, arc, about, spot = results
-    yield straight["omega"] == 0.0
-    yield arc["centre"] > arc["wheels"][0][1]
-    yield about["centre"] == pytest.approx(about["wheels"][0][1])
-    yield spot["v"] == 0.0
-
-
 def polar_angles(results):
     *_, before, robot, goal = (
         [result[name] for name in ("rho", "alpha", "theta")] for result in results

@@ -23,6 +23,7 @@ from wmrlib import (
     GeoPoint,
     Pose,
     Receiver,
+    advance,
     control_law,
     destination_point,
     haversine_distance,
@@ -249,7 +250,7 @@ def _digits() -> str:
 
 def _twist() -> str:
     v, omega = wheels_to_twist(0.3, 0.5, sys.modules["wmrbook.stages.two_wheels"].TRACK_WIDTH)
-    return f"v = {v:.3f} m/s ahead and ω = {math.degrees(omega):.1f} °/s"
+    return f"v = {v:.3f} m/s and ω = {omega:.3f} rad/s"
 
 
 def _seen() -> str:
@@ -307,6 +308,57 @@ def test_a_stage_says_what_wmrlib_computes(browser_page):
         said = said.replace("\N{NO-BREAK SPACE}", " ")
         assert re.search(truth(), said), f"{name}: {said}, not {truth()}"
         assert not panel.troubled()
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "does"),
+    [
+        (0.3, 0.6, "turns about a point 0.750 m to its left"),
+        (-0.6, -0.3, "turns about a point 0.750 m to its right"),
+        (0.6, 0.0, "turns about a point 0.250 m to its right"),
+        (-0.3, 0.3, "turns on the spot"),
+        (0.6, 0.6, "drives straight on"),
+        (-0.2, -0.2, "drives straight back"),
+        (0.0, 0.0, "stands still"),
+    ],
+)
+def test_two_wheels_turn_about_the_point_about_which_wmrlib_turns_them(
+    browser_page, left, right, does
+):
+    panel = mounted(browser_page, stages.two_wheels("centre"), width=620)
+    answer = browser_page.locator(".stage-chip", has_text="to its left")
+    found = "() => document.querySelector('.stage').found().tracks[0].n"
+    assert browser_page.evaluate(found) == 1  # a drive would answer the question
+    answer.click()
+    panel.settled().set(left=left, right=right, answer=-1)
+    assert f"It {does}." in _words(browser_page)
+    v, omega = wheels_to_twist(left, right, 0.5)
+    if v and omega:  # the wheels roll round that point
+        metres, side = re.search("point (.*) m to its (left|right)", does).groups()
+        assert (1 if side == "left" else -1) * float(metres) == pytest.approx(v / omega)
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "moves"),
+    [
+        (0.15, 0.25, "Forward, left, back, right"),
+        (-0.25, -0.15, "Back, left, forward, right"),
+        (0.25, 0.15, "Forward, right, back, left"),
+        (-0.15, -0.25, "Back, right, forward, left"),
+        (0.2, 0.2, "Forward, back"),
+    ],
+)
+def test_four_moves_are_named_as_they_are_driven(browser_page, left, right, moves):
+    mounted(browser_page, stages.two_wheels("aside"), width=620).set(left=left, right=right)
+    v, omega = wheels_to_twist(left, right, 0.5)
+    pose = Pose(0.0, 0.0, 0.0)
+    for drive, turn in ((v, 0.0), (0.0, omega), (-v, 0.0), (0.0, -omega)):
+        pose = advance(pose, drive, turn, 3.0)
+    words = _words(browser_page)
+    assert words.startswith(f"{moves}.")
+    parts = [(pose.x, "ahead", "back"), (-pose.y, "to its right", "to its left")]
+    for by, more, less in parts:
+        assert (f"{abs(by):.3f} m {more if by > 0 else less}" in words) == (abs(by) > 1e-3)
 
 
 @pytest.mark.parametrize("digits", [3, 4, 6])

@@ -15,7 +15,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "parts": sorted(PARTS),
         "first_drive": ["stopping"],
         "earth": ["bearing", "flat_map"],
-        "robot": ["one_step", "turning_centre"],
+        "robot": ["one_step"],
         "angles": ["half_turn", "polar_angles"],
         "lyapunov": ["bowl", "seam", "two_bars"],
         "circle": ["lag", "lqr"],

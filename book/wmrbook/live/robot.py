@@ -1,47 +1,14 @@
-"""Chapter 2: wheels, and steps in time."""
+"""Chapter 2: steps in time."""
 
 from __future__ import annotations
 
 import math
 
 from wmrbook.live.parts import Knob, Live, choose, nearest
-from wmrlib import Pose, advance, wheels_to_twist
+from wmrlib import Pose, advance
 
-TRACK = 0.6  # m
 ORIGIN = Pose(0.0, 0.0, 0.0)
 V, OMEGA, DT = 4.0, 1.0, 0.4  # m/s, rad/s and s, of Euler's steps
-
-
-def turning_centre() -> Live:
-    """Two wheel speeds, the twist of (1) and (2), and the point about which the robot turns."""
-    left, right = 0.5, 1.0
-    v, omega = wheels_to_twist(left, right, TRACK)
-    where = v / omega  # m to the left
-    return Live(
-        "turning_centre",
-        "The left wheel rolls at {left}, the right one at {right}. The middle moves at {speed} and "
-        "turns at {turning}: the robot {centre}.",
-        {
-            "left": Knob(left, -1.5, 1.5, 0.05, "speed of the left wheel", "m/s", "V_l"),
-            "right": Knob(right, -1.5, 1.5, 0.05, "speed of the right wheel", "m/s", "V_r"),
-        },
-        data={"track": TRACK},
-        ask=choose(
-            "The right wheel rolls twice as fast as the left one, both forward. About which point "
-            "does the robot turn?",
-            "The slower wheel has the shorter way round, so the centre lies beyond it.",
-            answers={
-                "one between the wheels": abs(where) < TRACK / 2,
-                "one to its left": where > TRACK / 2,
-                "one to its right": where < -TRACK / 2,
-            },
-            wrong=(
-                "It lies between the wheels only if they roll against each other.",
-                "",
-                "The faster wheel has the longer way round, so the centre lies on the other side.",
-            ),
-        ),
-    )
 
 
 def one_step() -> Live:

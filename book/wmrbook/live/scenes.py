@@ -26,20 +26,6 @@ SCENES = {
         ),
         Step("on the equator", "On the equator they run side by side.", {"km": 10.0, "lat": 0.0}),
     ),
-    "turning_centre": (
-        Step("alike", "Two wheels alike: straight on.", {"left": 1.0, "right": 1.0}),
-        Step(
-            "one slower",
-            "One is slower: an arc about a point on its side.",
-            {"left": 0.5, "right": 1.0},
-        ),
-        Step("one stands", "One stands: the robot turns about it.", {"left": 0.0, "right": 1.0}),
-        Step(
-            "one rolls back",
-            "One rolls back: the robot turns on the spot.",
-            {"left": -1.0, "right": 1.0},
-        ),
-    ),
     "polar_angles": (
         Step("rho", "How far? rho, along the line of sight."),
         Step("alpha", "Where does it lie? alpha, from the robot's heading."),

@@ -9,7 +9,8 @@ from wmrlib import Pose, advance, wheels_to_twist
 TRACK_WIDTH = 0.5  # m, of the robot that is drawn
 SECONDS = 3.0  # a drive
 MOST = 0.6  # m/s, of a wheel
-TWIST = "Two motors make two numbers, *v* = {speed} ahead and *omega* = {turning}. "
+TWIST = "Two motors make two numbers, *v* = {speed} and *omega* = {turning}. "
+TWICE = {"left": 0.3, "right": 0.6}  # m/s, the right one twice as fast
 
 
 def two_wheels(scene: str = "arc") -> Stage:
@@ -22,13 +23,23 @@ def two_wheels(scene: str = "arc") -> Stage:
         "if one wheel stands still": _sideways(0.0, MOST) > 1e-6,
     }
     verdict = (
-        "whatever the wheels do, it moves only where it points, and it turns. Here it turns on "
-        "the spot. To get to its side, it needs several moves."
+        "whatever the wheels do, it only moves ahead or back, and turns. Here it turns on the "
+        "spot. To get to its side, it needs several moves."
     )
+    beyond = (
+        "both wheels turn by the same angle round that point, and the slower one has the shorter "
+        "way, so the point lies beyond it. The robot {does}."
+    )
+    v, omega = wheels_to_twist(**TWICE, track_width=TRACK_WIDTH)
+    points = {
+        "one between the wheels": abs(v / omega) < TRACK_WIDTH / 2,
+        "one to its left": v / omega > TRACK_WIDTH / 2,
+        "one to its right": v / omega < -TRACK_WIDTH / 2,
+    }
     scenes = {
         "arc": Scene(f"{TWIST}Can it move sideways?"),
         "straight": Scene(
-            f"Both wheels roll alike, so it drives straight on. {TWIST}",
+            f"{TWIST}It {{does}}.",
             to={"left": 0.4, "right": 0.4},
         ),
         "turn": Scene(
@@ -36,7 +47,17 @@ def two_wheels(scene: str = "arc") -> Stage:
             "The robot has turned by {turned}.",
             shows=("turn",),
         ),
-        "spot": Scene(f"{TWIST}It {{does}}.", to={"left": -0.3, "right": 0.3}),
+        "centre": Scene(
+            f"{TWIST}It {{does}}.",
+            shows=("centre",),
+            to=TWICE,
+            ask=Question(
+                "The right wheel rolls twice as fast as the left one. About which point does the "
+                "robot turn?",
+                dict.fromkeys(points, beyond),
+                next(point for point, right in points.items() if right),
+            ),
+        ),
         "velocity": Scene(
             "The robot faces {heading} from east and drives at {speed}: {east} to the east and "
             "{north} to the north.",
@@ -52,15 +73,14 @@ def two_wheels(scene: str = "arc") -> Stage:
             f"{TWIST}It {{does}}.",
             still=True,
             ask=Question(
-                "It moves straight to its side",
+                "When does it move straight to its side?",
                 dict.fromkeys(moves, verdict),
                 next(answer for answer, right in moves.items() if right),
                 {"left": -0.3, "right": 0.3},
             ),
         ),
         "aside": Scene(
-            "Forward, left, back, right. It faces as before, and it stands {aside} to its side "
-            "and {ahead} ahead.",
+            "{moves}. In the end it faces as before and stands {shifted}.",
             shows=("moves",),
             to={"left": 0.15, "right": 0.25},
         ),

@@ -21,7 +21,6 @@ export const CONTRACTS = {
   'live/seam': 'fc844380',
   'live/silence': '1e75099f',
   'live/stopping': '4972edf8',
-  'live/turning_centre': 'd73337d4',
   'live/two_bars': '6334ee4a',
   'live/unit_circle': '7802370b',
   'live/window': 'e15e2e19',

@@ -1,11 +1,13 @@
-// Chapter 2: the arc that two wheel speeds make, its chord, and a way to the side in four moves.
+// Chapter 2: the arc that two wheel speeds make, its centre and its chord, and a way to the side in
+// four moves.
 
-import { DEGREES, ahead, arcStep, inDegrees, stage, twistOf, written } from '../drawing.js';
+import { ahead, arcStep, inDegrees, ring, stage, twistOf, written } from '../drawing.js';
 
 const DT = 0.05; // s
 const START = [0, 0, Math.PI / 2];
 const SLANTED = [0, 0, Math.PI / 6]; // 30 degrees from east, to split a velocity
 const LONGER = 3.5; // m of an arrow for each m/s
+const FAR = 50; // m to the turning centre, beyond which it is not drawn
 const COLUMNS = ['t', 'x', 'y', 'heading'];
 
 // The poses of some moves, each of a twist and a time, from a start.
@@ -31,45 +33,76 @@ const tracksOf = ({ x, y, heading }, width) => [1, -1].map((side) => x.map((_, k
 const fourMoves = (v, omega, seconds) => [[v, 0], [0, omega], [-v, 0], [0, -omega]]
     .map(([drive, turn]) => ({ v: drive, omega: turn, seconds }));
 
+// What the moves are called, for two wheel speeds of any sign, and where they lead.
+function namesOf(v, omega) {
+  const drives = v > 0 ? ['forward', 'back'] : v ? ['back', 'forward'] : [],
+      turns = omega > 0 ? ['left', 'right'] : omega ? ['right', 'left'] : [];
+  const names = [0, 1].flatMap((i) => [drives[i], turns[i]]).filter(Boolean).join(', ');
+  return names ? names[0].toUpperCase() + names.slice(1) : 'No move';
+}
+function shiftedTo([x, y]) {
+  const parts = [[x, 'to its right', 'to its left'], [y, 'ahead', 'back']]
+      .filter(([by]) => Math.abs(by) >= 0.0005)
+      .map(([by, more, less]) => `${written(Math.abs(by), 'm')} ${by > 0 ? more : less}`);
+  return parts.length ? parts.join(' and ') : 'where it began';
+}
+
+// About which point it turns, in words.
+function movesOf(v, omega) {
+  if (!omega) return v > 0 ? 'drives straight on' : v ? 'drives straight back' : 'stands still';
+  if (!v) return 'turns on the spot';
+  return `turns about a point ${written(Math.abs(v / omega), 'm')} to its ${
+    v / omega > 0 ? 'left' : 'right'}`;
+}
+
 const sidewaysFrom = (pose, side, far) =>
     ahead([pose[0], pose[1], pose[2] + side * Math.PI / 2], far);
 
 export default stage('two_wheels', {
-  find({ scene, left, right }, { scenes, data: { track_width: width, seconds } }) {
+  find({ scene, left, right, answer }, { scenes, data: { track_width: width, seconds } }) {
     const { shows } = scenes.find(({ name }) => name === scene);
-    const { v, omega } = twistOf(left, right, width);
+    const [v, omega] = Object.values(twistOf(left, right, width))
+        .map((value) => (Math.abs(value) < 1e-9 ? 0 : value)); // of sliders that add up to nothing
     const start = shows.includes('velocity') ? SLANTED : START;
     const run = along(start, shows.includes('moves') ? fourMoves(v, omega, seconds)
         : [{ v, omega, seconds }]);
     const straight = ahead(start, v * seconds);
+    const asks = shows.includes('centre') && answer === null; // its drive would tell
     return { v, omega, start, straight, wheels: tracksOf(run, width),
-      tracks: [{ ...run, role: 'path' }], end: run.pose, close: shows.length > 0,
+      tracks: [{ ...(asks ? along(start, []) : run), role: 'path' }], end: run.pose, run, asks,
+      close: shows.length > 0 && !shows.includes('centre'),
       miss: Math.hypot(run.pose[0] - straight[0], run.pose[1] - straight[1]) };
   },
-  look(values, { tracks: [{ x, y }], close }) {
+  look(values, { run: { x, y }, close }) {
     const reach = 0.4 + Math.max(close ? 0.8 : 1.3, ...x.map(Math.abs), ...y.map(Math.abs));
     return [-reach, close ? Math.min(-0.5, Math.min(...y) - 0.4) : -reach, reach, reach];
   },
   say: ({ left, right }, { v, omega, start, end, miss }, { data: { seconds } }) => ({
-    speed: written(v, 'm/s'), turning: written(omega * DEGREES, '°/s'),
-    does: v && omega ? 'drives an arc' : v ? 'drives straight on' : omega ? 'turns on the spot'
-        : 'stands still',
+    speed: written(v, 'm/s'), turning: written(omega, 'rad/s'), does: movesOf(v, omega),
     left_way: written(left * seconds, 'm'), right_way: written(right * seconds, 'm'),
     turned: inDegrees(omega * seconds), half: inDegrees(omega * seconds / 2),
     arc: written(Math.abs(v) * seconds, 'm'),
     chord: written(Math.hypot(end[0] - start[0], end[1] - start[1]), 'm'),
     miss: written(miss, 'm'), heading: inDegrees(start[2], 0),
     east: written(v * Math.cos(start[2]), 'm/s'), north: written(v * Math.sin(start[2]), 'm/s'),
-    aside: Math.abs(end[0]) < 0.0005 ? 'nothing' : written(Math.abs(end[0]), 'm'),
-    ahead: Math.abs(end[1]) < 0.0005 ? 'nothing' : written(Math.abs(end[1]), 'm'),
+    moves: namesOf(v, omega), shifted: shiftedTo(end),
   }),
-  draw(pane, { left, right }, { v, omega, start, straight, wheels, end }, { pose, k, size, shows },
-      { data: { track_width: width, seconds } }) {
+  draw(pane, { left, right }, { v, omega, start, straight, wheels, end, asks },
+      { pose, k, size, shows }, { data: { track_width: width, seconds } }) {
     pane.robot(start, 0.2, { size });
     for (const [i, speed] of [left, right].entries()) {
       const [x, y] = sidewaysFrom(pose, i ? -1 : 1, width / 2);
       pane.line(wheels[i].slice(0, k + 1), 'ink', { width: 1.5, dash: [2, 5] });
-      if (speed && !shows.length) pane.arrow(x, y, ...ahead([x, y, pose[2]], speed), 'rho');
+      if (speed && (!shows.length || shows.includes('centre')))
+        pane.arrow(x, y, ...ahead([x, y, pose[2]], speed), 'rho');
+    }
+    if (shows.includes('centre') && !asks && omega && Math.abs(v / omega) < FAR) {
+      const place = sidewaysFrom(pose, 1, v / omega),
+          [tip, other] = [left, right].map((speed, i) =>
+            ahead([...sidewaysFrom(pose, i ? -1 : 1, width / 2), pose[2]], speed));
+      if (v) pane.line(ring(...place, Math.abs(v / omega)), 'ghost', { width: 1.5, dash: [4, 4] });
+      pane.line([tip, place, other], 'rho', { width: 1.5, dash: [2, 4] });
+      pane.line([pose, place], 'theta', { width: 1.5, dash: [6, 4] });
     }
     if (shows.includes('turn')) {
       if (omega && Math.abs(v / omega) < 5)
@@ -96,5 +129,11 @@ export default stage('two_wheels', {
       pane.text('v cos θ', corner[0], corner[1], { dy: -18, align: 'right' });
       pane.text('v sin θ', corner[0], tip[1] / 2, { dx: 10 });
     }
+  },
+  above(pane, values, { v, omega, asks }, { pose, shows }) {
+    if (!shows.includes('centre') || asks || !omega || Math.abs(v / omega) > FAR) return;
+    const place = sidewaysFrom(pose, 1, v / omega);
+    pane.cross(...place, 'goal'); // over the robot that it may lie under
+    pane.text('turning centre', ...place, { role: 'goal', dy: -26, align: 'center' });
   },
 });
