@@ -1,0 +1,169 @@
+"""What a reader does with the core chapters: types their cells, and changes a number in one."""
+
+from __future__ import annotations
+
+import ast
+import warnings
+from itertools import cycle
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import nbformat
+import numpy as np
+import pytest
+import sympy as sp
+
+import wmrlib as wmr
+
+NOTEBOOKS = Path(__file__).parent.parent / "notebooks"
+CHAPTERS = sorted(NOTEBOOKS.glob("0[0-5]_*.ipynb"))
+FACTORS = (1.25, 0.8, 2.0)
+CHANGED = 3  # cells of a chapter
+ADVICE = ("not allowed", "needed", "must", "at least", "at most")  # a message that says why
+
+
+def cells_of(path):
+    """Return the cells that a reader runs: their text, and whether the book shows it."""
+    cells = nbformat.read(path, as_version=4).cells
+    code = [cell for cell in cells if cell.cell_type == "code"]
+    runs = [it for it in code if "skip-execution" not in it.metadata.get("tags", ())]
+    folded = {"hide-cell", "hide-input", "remove-cell", "remove-input"}
+    return [(it.source, not folded & {*it.metadata.get("tags", ())}) for it in runs]
+
+
+def numbers(source):
+    """Return the numbers with a point that stand in a cell, without powers, checks and texts."""
+    skipped = (ast.Assert, ast.JoinedStr)
+    waiting, places = [ast.parse(source)], []
+    while waiting:
+        node = waiting.pop(0)
+        if isinstance(node, ast.Constant) and type(node.value) is float and node.value:
+            places.append(node)
+        below = [it for it in ast.iter_child_nodes(node) if not isinstance(it, skipped)]
+        if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow):
+            below = [node.left]
+        waiting += below
+    return places
+
+
+def with_another(source, number, factor):
+    """Return a cell in which one number is larger or smaller."""
+    lines = source.splitlines(keepends=True)
+    line = lines[number.lineno - 1].encode()
+    new = repr(round(factor * number.value, 6)).encode()
+    lines[number.lineno - 1] = (
+        line[: number.col_offset] + new + line[number.end_col_offset :]
+    ).decode()
+    return "".join(lines)
+
+
+def run(source, names):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        exec(compile(source, "<cell>", "exec"), names)
+    plt.close("all")
+
+
+def reason(source, below, names):
+    """Run a changed cell and what stands below it, as far as the next folded check.
+
+    Returns what it says against the number, or nothing where all of it runs.
+    """
+    try:
+        run(source, names)
+        for text, shown in below:
+            run(text, names)
+            if not shown:
+                break
+    except (AssertionError, ValueError) as error:
+        return error
+    return None
+
+
+def explains(error):
+    """Return whether an error is a sentence that helps a reader."""
+    if error is None:
+        return True
+    if isinstance(error, ValueError):
+        return any(word in str(error) for word in ADVICE)
+    return len(str(error).split()) >= 4
+
+
+@pytest.fixture
+def at_home(monkeypatch):
+    monkeypatch.chdir(NOTEBOOKS)
+    monkeypatch.setattr("builtins.display", lambda *shown, **options: None, raising=False)
+
+
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+def test_a_changed_number_runs_or_is_told_why_not(path, at_home):
+    cells, names = cells_of(path), {"__name__": "__main__"}
+    some = [k for k, (source, shown) in enumerate(cells) if shown and numbers(source)]
+    some = dict(zip(some[:: max(1, len(some) // CHANGED)], cycle(FACTORS), strict=False))
+    for k, (source, _) in enumerate(cells):
+        if factor := some.get(k):
+            text = with_another(source, numbers(source)[0], factor)
+            error = reason(text, cells[k + 1 :], dict(names))
+            assert explains(error), f"{text}\n{error!r}"
+        run(source, names)
+    check = DERIVED.get(path.stem)
+    assert check is None or check(names)
+
+
+def the_rates_of_the_polar_coordinates(names):
+    """(7) to (10), which sympy has derived from the robot's motion, against wmrlib's numbers."""
+    rho, alpha, v, omega = (names[it] for it in ("rho", "alpha", "v", "omega"))
+    rates = sp.lambdify((rho, alpha, v, omega), [*names["derived"]])
+    matrix = sp.lambdify((rho, alpha), names["matrix"])
+    numbers = wmr.polar_rate(3.0, 0.7, 1.2, -0.4)
+    products = matrix(3.0, 0.7) @ [1.2, -0.4]
+    return np.allclose(rates(3.0, 0.7, 1.2, -0.4), numbers) and np.allclose(products, numbers)
+
+
+def the_rate_of_v(names):
+    """The derivative of V, against a small step of wmrlib's V along its own motion."""
+    places = ("rho", "alpha", "theta", "v", "omega", "h", "L")
+    rate = sp.lambdify([names[it] for it in places], names["V_dot"])
+    (rho, alpha, theta), v, omega, h, dt = (3.0, 0.7, -0.5), 1.2, -0.4, 2.0, 1e-6
+    steps = np.multiply(dt, wmr.polar_rate(rho, alpha, v, omega))
+    ahead, behind = (
+        wmr.lyapunov(*(np.array([rho, alpha, theta]) + way * steps), h) for way in (1, -1)
+    )
+    return np.isclose(rate(rho, alpha, theta, v, omega, h, 1.0), (ahead - behind) / (2 * dt))
+
+
+DERIVED = {
+    "03_polar_coordinates": the_rates_of_the_polar_coordinates,
+    "04_lyapunov": the_rate_of_v,
+}
+
+
+def calls(source):
+    """Return the names of what a cell calls, and the keywords with which it does."""
+    nodes = [it for it in ast.walk(ast.parse(source)) if isinstance(it, ast.Call)]
+    return {ast.unparse(it.func): {word.arg for word in it.keywords} for it in nodes}
+
+
+@pytest.mark.parametrize("start", ["00", "01", "05"])
+def test_the_library_follows_what_the_reader_wrote_with_the_same_number(start):
+    (path,) = NOTEBOOKS.glob(f"{start}_*.ipynb")
+    cells = [it for it in nbformat.read(path, as_version=4).cells if it.cell_type == "code"]
+    own = next(k for k, it in enumerate(cells) if "def haversine(" in it.source)
+    library = next(k for k, it in enumerate(cells) if "wmr.haversine_distance" in calls(it.source))
+    by_hand, theirs = (cells[k].outputs[-1]["data"]["text/plain"] for k in (own, library))
+    assert own < library
+    assert float(by_hand) == float(theirs)
+    if start != "01":
+        drives = [k for k, it in enumerate(cells) if "wmr.simulate" in calls(it.source)]
+        assert drives, "the reader's loop is compared with the library's"
+
+
+def test_the_chapters_have_the_sliders_and_the_control_library():
+    first, *_ = CHAPTERS
+    gains = {"k_rho", "k_alpha", "h"}
+    found = [calls(source).get("widgets.interact", set()) for source, _ in cells_of(first)]
+    assert any(gains <= keywords for keywords in found)
+    for start in ("06", "07"):
+        (path,) = NOTEBOOKS.glob(f"{start}_*.ipynb")
+        called = {name for source, _ in cells_of(path) for name in calls(source)}
+        assert any(name.startswith("control.") for name in called), path.stem
