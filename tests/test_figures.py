@@ -103,13 +103,11 @@ def time_steps():
 
 
 CASES = {
-    "local_map": lambda: figures.local_map(paper.GPS_POINT_1, paper.GPS_POINT_2),
     "dashboard": lambda: figures.dashboard(drive()),
     "dashboard of a circle": lambda: figures.dashboard(chase()),
     "dashboard of a single sample": lambda: figures.dashboard(parked()),
     "path": lambda: figures.path(drive()),
     "path of two": lambda: figures.path([drive(), parked()], ["one", "two"]),
-    "lyapunov_over_time": lambda: figures.lyapunov_over_time(drive()),
     "twist": lambda: figures.twist(drive()),
     "spherical_triangle": lambda: figures.spherical_triangle(
         wmr.GeoPoint(lat=5.0, lon=0.0), wmr.GeoPoint(lat=35.0, lon=70.0)
@@ -197,9 +195,9 @@ def graceful():
 
 
 SAYS = {  # what the text must say, in numbers that come from elsewhere
-    "local_map": lambda: ["58.08 m long, at a bearing of 9.58 deg"],
-    "dashboard": lambda: ["; v between 0.4 and 4.0 m/s; omega between -4.3 and 0.2 rad/s;"],
-    "lyapunov_over_time": lambda: ["from 1690 to 0.132; V falls in every step"],
+    "dashboard": lambda: [
+        "; v between 0.4 and 4.0 m/s; omega between -4.3 and 0.2 rad/s; V falls in every step"
+    ],
     "twist": lambda: [
         "Over time: v goes from 4.0 to 0.4 m/s, within 5 % of its peak, 4.0 m/s, from 0.0 to "
         f"{drive().t[drive().v > 0.95 * GAINS.v_max][-1]:.1f} s; omega goes from 0.2 to -4.1 "
@@ -452,7 +450,6 @@ def test_a_route_is_drawn_as_it_was_driven():
 HERE = wmr.GeoPoint(lat=5.0, lon=0.0)
 FIVE = {str(k): STEPS for k in range(6)}
 BAD = [
-    ("a GeoPoint is needed, not a tuple", "local_map", ((33, 44), HERE)),
     ("a GeoPoint is needed, not a tuple", "spherical_triangle", ((5, 0), HERE)),
     ("a GeoPoint is needed, not a tuple", "sphere_error_map", ((5, 0), 0.0)),
     (r"angle = 0\.0 is not allowed", "chord", (0.0,)),
@@ -504,7 +501,7 @@ def test_a_run_without_a_sample_is_named_and_so_is_a_picture_without_a_drive():
     lost = wmr.simulate(wmr.Pose(0, 0, 0), wmr.Pose(5, 1, 0), wmr.Gains(*[1e308] * 4))
     several, one = {"far": drive(), "lost": lost}, {"run": (lost,), "moments": (lost, [0.0, 1.0])}
     cases = [
-        *((name, one["run"], "run") for name in ("dashboard", "twist", "lyapunov_over_time")),
+        *((name, one["run"], "run") for name in ("dashboard", "twist")),
         *((name, ([drive(), lost],), "runs[1]") for name in ("path", "heading_errors")),
         ("angles_over_time", (lost,), "runs[0]"),
         ("snapshots", one["moments"], "run"),

@@ -43,7 +43,7 @@ def parked() -> wmr.Trajectory:
 
 
 def test_v_is_red_where_it_rises_and_only_there():
-    whole, rising = figures.lyapunov_over_time(circled()).figure.axes[0].lines
+    whole, rising = figures.dashboard(circled()).figure.axes[-1].lines
     rises = np.flatnonzero(np.diff(circled().V) > 1e-9 * circled().V[0])
     assert 0 < rises.size < len(circled()) - 1
     np.testing.assert_array_equal(whole.get_xydata(), np.transpose([circled().t, circled().V]))
@@ -51,7 +51,7 @@ def test_v_is_red_where_it_rises_and_only_there():
     np.testing.assert_array_equal([begin, end], whole.get_xydata()[[rises, rises + 1]])
     assert np.isnan(gap[:, 1]).all()
     assert rising.get_linewidth() > 2 * whole.get_linewidth()  # a shape beside the colour
-    (only,) = figures.lyapunov_over_time(driven()).figure.axes
+    only = figures.dashboard(driven()).figure.axes[-1]
     assert len(only.lines) == 1
     assert only.get_legend() is None  # nothing to tell apart
 

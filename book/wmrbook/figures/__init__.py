@@ -8,11 +8,10 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "style": ["COLOURS", "LINES", "Picture"],
         "paths": ["path"],
         "facing": ["beliefs", "heading_distance", "lever_arm"],
-        "first_drive": ["dashboard", "lyapunov_over_time", "twist"],
+        "first_drive": ["dashboard", "twist"],
         "earth": [
             "chord",
             "curvature_radii",
-            "local_map",
             "sphere_error_map",
             "spherical_triangle",
         ],

@@ -1,4 +1,4 @@
-"""Chapter 1: GPS points and the Earth they lie on; and the map of chapter 0."""
+"""Chapter 1: the Earth that GPS points lie on."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from matplotlib.patches import Circle
 
 from wmrbook.ellipsoid import sphere_error
 from wmrbook.figures._drawing import note
-from wmrbook.figures.style import COLOURS, Picture, equal_scales, new_figure
+from wmrbook.figures.style import COLOURS, Picture, new_figure
 from wmrlib.checks import instance, scalar
 from wmrlib.geodesy import (
     EARTH_RADIUS_M,
@@ -18,35 +18,9 @@ from wmrlib.geodesy import (
     destination_point,
     haversine_distance,
     initial_bearing,
-    local_position,
 )
 
 DARK_INK = "#0a0a0a"  # on a map that stays light in the dark theme
-
-
-def local_map(origin: GeoPoint, point: GeoPoint) -> Picture:
-    """Two GPS points in the local frame of the first, east to the right and north up, in metres."""
-    instance("origin", origin, GeoPoint)
-    east, north = local_position(origin, point)
-    distance = haversine_distance(origin, point)
-    bearing = math.degrees(initial_bearing(origin, point))
-    figure, axes = new_figure(5.0, 5.5)
-    axes.plot([0, east], [0, north], "--", color=COLOURS["path"])
-    axes.plot(0, 0, "o", ms=10, color=COLOURS["start"])
-    axes.plot(east, north, "*", ms=15, color=COLOURS["goal"])
-    for name, where, at in (("start", origin, (0, 0)), ("goal", point, (east, north))):
-        label = f"{name}\n{where.lat:.6f} deg N\n{where.lon:.6f} deg E"
-        note(axes, label, at, (10, -4), va="center")
-    middle = east / 2, north / 2
-    note(axes, f"{distance:.2f} m at {bearing:.2f} deg", middle, (10, 0), va="center")
-    equal_scales(axes, np.array([0, east]), np.array([0, north]), room=0.25)
-    axes.set(xlabel="east [m]", ylabel="north [m]")
-    return Picture(
-        figure,
-        "Map in metres: from the start at the origin a dashed line leads to the goal "
-        f"{east:.1f} m east and {north:.1f} m north; "
-        f"it is {distance:.2f} m long, at a bearing of {bearing:.2f} deg.",
-    )
 
 
 def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:

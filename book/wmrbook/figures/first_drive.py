@@ -42,16 +42,6 @@ def twist(run: Trajectory) -> Picture:
     return Picture(figure, f"Over time: {words}.")
 
 
-def lyapunov_over_time(run: Trajectory) -> Picture:
-    """V over time on a logarithmic scale; thick and red wherever it rises."""
-    with_samples("run", run)
-    figure, axes = new_figure(7.0, 3.2)
-    draw_lyapunov(axes, run)
-    axes.set_xlabel("time [s]")
-    ends = f"from {_three_digits(run.V[0])} to {_three_digits(run.V[-1])}"
-    return Picture(figure, f"V over time, on a logarithmic scale: {ends}; {rises_in_words(run)}.")
-
-
 def _course_in_words(run: Trajectory, name: str, unit: str) -> str:
     values = getattr(run, name)
     high = np.abs(values) >= 0.95 * np.abs(values).max()
@@ -62,12 +52,6 @@ def _course_in_words(run: Trajectory, name: str, unit: str) -> str:
     peak = f"{values[np.abs(values).argmax()]:z.1f} {unit}"
     spell = f"from {run.t[first]:.1f} to {run.t[last]:.1f} s"
     return f"{text}, within 5 % of its peak, {peak}, {spell}"
-
-
-def _three_digits(value: float) -> str:
-    if value < 1e-6:
-        return "less than 1e-6"
-    return np.format_float_positional(value, 3, unique=False, fractional=False, trim="-")
 
 
 def draw_series(axes: Axes, run: Trajectory, label: str, **styles: str) -> None:

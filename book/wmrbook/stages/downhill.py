@@ -22,11 +22,11 @@ def downhill(scene: str = "whole") -> Stage:
     """Return seven robots on their way to one goal, as one of its scenes."""
     rises, all_park = _outcome(GENTLE_GAINS._replace(h=0.0))
     answers = {
-        "*V* never rises, but they do not all park": not rises and not all_park,
-        "*V* rises, and they do not all park": rises and not all_park,
-        "*V* never rises, and they all park": not rises and all_park,
+        "*V* never rises, but not all of them park": not rises and not all_park,
+        "*V* rises, and not all of them park": rises and not all_park,
+        "*V* never rises, and all of them park": not rises and all_park,
     }
-    verdict = f"{CAME} With *h* = 0 the heading no longer counts in *V*."
+    verdict = f"{CAME} With *h* = 0, *V* and the law no longer know the goal's heading."
     scenes = {
         "whole": Scene(
             f"Does it park from everywhere, or only from where we tried? {CAME}", look="other"
@@ -53,7 +53,7 @@ def downhill(scene: str = "whole") -> Stage:
             look="other",
             still=True,
             ask=Question(
-                "With *h* = 0",
+                "We set *h* = 0. What do *V* and the seven robots do now?",
                 dict.fromkeys(answers, verdict),
                 next(answer for answer, right in answers.items() if right),
                 {"h": 0.0},
@@ -72,7 +72,7 @@ def downhill(scene: str = "whole") -> Stage:
 
 
 def _outcome(gains) -> tuple[bool, bool]:
-    """Return whether V rises in any of the drives, and whether all of them park."""
+    """Return whether V rises in any of the drives, and whether all of them park"""
     options = {"method": "continuous", "arrival_radius": RADIUS, "duration": SECONDS}
     runs = [simulate(start, GOAL, gains, **options) for start in (OWN, *OTHERS)]
     values = [lyapunov(run.rho, run.alpha, run.theta, gains.h) for run in runs]
