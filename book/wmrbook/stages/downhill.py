@@ -72,7 +72,7 @@ def downhill(scene: str = "whole") -> Stage:
 
 
 def _outcome(gains) -> tuple[bool, bool]:
-    """Return whether V rises in any of the drives, and whether all of them park"""
+    """Return whether V rises in any of the drives, and whether all of them park."""
     options = {"method": "continuous", "arrival_radius": RADIUS, "duration": SECONDS}
     runs = [simulate(start, GOAL, gains, **options) for start in (OWN, *OTHERS)]
     values = [lyapunov(run.rho, run.alpha, run.theta, gains.h) for run in runs]
