@@ -43,7 +43,6 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "lag track": lambda f: lambda g, a, k, **o: f(g, a, k._replace(k_rho=1.9), **o),
     "window simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(v_max=4.0), **o),
     "poles modes": lambda f: lambda k: f(k._replace(h=1 / k.h)),
-    "unit_circle longest_step": lambda f: lambda *a: 0.5 * f(*a),
     "late Receiver": lambda f: lambda delay, heading_delay: f(0, 0, 0, heading_delay, delay),
     "rising lyapunov_rate": lambda f: lambda *a, **o: -f(*a, **o),
     "silence rolled": lambda f: lambda v, timeout, brake: f(v, timeout, -brake),

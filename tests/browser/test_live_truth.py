@@ -115,28 +115,6 @@ def poles(values, results, data) -> None:
     same_run(results["run"], data["start"], data["goal"], gains, dt=0.02, duration=30.0)
 
 
-def unit_circle(values, results, data) -> None:
-    gains = wmr.Gains(**data["gains"][values["gains"]])
-    options = {"method": values["method"], "dt": results["dt"]}
-    longest = wmr.longest_step(gains, values["method"])
-    assert results["dt"] == pytest.approx(values["times"] * longest, rel=1e-12)
-    # one step of simulate, from three places near the goal: the poles are of what it does to them
-    rho, size, origin = 1e-3, 1e-5, wmr.Pose(0.0, 0.0, 0.0)
-    columns = []
-    for angles in ((size, 0.0), (0.0, size)):
-        start = wmr.pose_from_polar(wmr.PolarError(rho, *angles), origin)
-        run = wmr.simulate(
-            start, origin, gains, arrival_radius=0.0, duration=options["dt"], **options
-        )
-        columns.append([run.alpha[-1] / size, run.theta[-1] / size])
-        assert run.rho[-1] / rho == pytest.approx(results["kept"], rel=1e-2)
-    theirs = np.sort_complex(np.linalg.eigvals(np.transpose(columns)))
-    ours = np.sort_complex([complex(*pole) for pole in results["poles"]])
-    np.testing.assert_allclose(ours, theirs, atol=1e-2)
-    assert (results["size"] < 1) == (values["times"] < 1) or values["times"] == 1
-    same_run(results["run"], data["start"], data["goal"], gains, **options)
-
-
 def late(values, results, data) -> None:
     for k, run in enumerate(results["runs"]):
         delays = [0.0, 0.0]
@@ -199,27 +177,6 @@ def corners(values, results, data) -> None:
 def passing(values, results, data) -> None:
     gains = wmr.Gains(**data["gains"])
     same_route(results["run"], data["poses"], (values["radius"], 0.05), gains, False)
-
-
-def parking(values, results, data) -> None:
-    dead, least = values["dead"], 1.1 * values["dead"]
-    wheels = wmr.Wheels(**data["wheels"], dead_band=dead)
-    wheels = wheels._replace(min_speed=0.0 if values["mend"] == "none" else least)
-    rate = max(2.0 * least / wheels.track_width, 0.2)
-    turn = wmr.LastTurn(0.03, 2.0, rate, 1.0) if values["mend"] == "turn" else None
-    options = {
-        "method": "arc",
-        "last_turn": turn,
-        "arrival_radius": values["radius"],
-        "wheels": wheels,
-    }
-    gains = wmr.Gains(**data["gains"])
-    same_run(results["run"], data["start"], data["goal"], gains, **options)
-    if dead:
-        start, goal = wmr.Pose(-2.0, 0.0, 0.0), wmr.Pose(0.0, 0.0, 0.0)
-        options = {"dt": 0.01, "duration": 100.0, "arrival_radius": 0.0}
-        alone = wmr.simulate(start, goal, gains, wheels=wmr.Wheels(0.5, dead_band=dead), **options)
-        assert results["stalls"] == pytest.approx(alone.rho[-1], abs=0.01)
 
 
 def bowl(values, results, data) -> None:

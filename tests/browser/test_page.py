@@ -282,7 +282,7 @@ def test_each_chapter_can_be_downloaded_as_a_notebook(site):
 
 
 def test_a_papers_equation_that_is_mentioned_leads_to_where_it_is_derived(opened):
-    page = opened("notebooks/08_sampling_and_wheels.html")
+    page = opened("notebooks/10_the_audit.html")
     page.get_by_role("link", name="(22)", exact=True).first.click(timeout=PATIENCE)
     page.wait_for_url("**/04_lyapunov.html#paper-22", timeout=PATIENCE)
     page.locator("div.math:has(#paper-22) svg").first.wait_for(timeout=PATIENCE)

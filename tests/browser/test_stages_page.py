@@ -400,6 +400,18 @@ def test_a_stage_drives_with_the_wrong_sign_as_wmrlib_does(browser_page):
     assert f"stops after {run.t[-1]:.1f} s, {off_heading(run):.0f}° off its heading" in said
 
 
+@pytest.mark.parametrize("wheels", ["slow", "sticky", "least"])
+def test_a_stage_drives_on_its_wheels_as_wmrlib_does(browser_page, wheels):
+    module = sys.modules["wmrbook.stages.late_looks"]
+    start, goal, _, _ = paper.outdoor()
+    options = {"method": "arc", "dt": module.OFTEN, "duration": module.SECONDS}
+    run = simulate(start, goal, GENTLE_GAINS, wheels=module.WHEELS[wheels], **options)
+    mounted(browser_page, stages.late_looks(), width=620).set(dt=module.OFTEN, wheels=wheels)
+    ends = "stands still" if wheels == "sticky" else "stops"
+    where = f"{ends} {100 * run.rho[-1]:.2g} cm from its goal, {off_heading(run):.0f}° off"
+    assert where in _words(browser_page)
+
+
 def test_a_stage_splits_the_velocity_as_wmrlib_does(browser_page):
     stage = stages.three_numbers("split")
     module = sys.modules["wmrbook.stages.three_numbers"]

@@ -20,7 +20,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "lyapunov": ["bowl", "seam", "two_bars"],
         "circle": ["lag", "lqr"],
         "design": ["poles", "window"],
-        "sampling": ["parking", "unit_circle"],
         "noise": ["late"],
         "audit": ["rising"],
         "real_robot": ["silence"],

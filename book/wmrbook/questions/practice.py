@@ -12,7 +12,7 @@ from wmrbook.questions._asking import Option, cases, numbers, question
 _GOAL = wmr.Pose(0.0, 0.0, 0.0)
 
 
-@question(8, "The longest step", "Twice as fast near the goal")
+@question(8, "The goal comes nearer during the step", "Twice as fast near the goal")
 def twice_as_fast() -> tuple[str, list[Option], str]:
     gains = wmr.GENTLE_GAINS
     quick = gains._replace(k_rho=2.0 * gains.k_rho, k_alpha=2.0 * gains.k_alpha)

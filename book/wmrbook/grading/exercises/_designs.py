@@ -210,7 +210,7 @@ def announced_too_low(answer: Any) -> str:
 
 @exercise
 def longest_step(seconds: Any) -> str:
-    """8.2: the longest polar Euler step with which the circle's gains still settle."""
+    """8.4: the longest polar Euler step with which the circle's gains still settle."""
     value, gains = number("`seconds`", seconds), paper.CIRCLE_GAINS
     pace = gains.k_rho * gains.v_max
     angles, distance = gains.k_alpha / (gains.h * pace**2), 2.0 / pace
