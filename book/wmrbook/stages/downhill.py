@@ -53,7 +53,7 @@ def downhill(scene: str = "whole") -> Stage:
             look="other",
             still=True,
             ask=Question(
-                "We set *h* = 0. What do *V* and the seven robots do now?",
+                "If we set *h* = 0, what do *V* and the seven robots do?",
                 dict.fromkeys(answers, verdict),
                 next(answer for answer, right in answers.items() if right),
                 {"h": 0.0},
