@@ -134,6 +134,8 @@ export default stage('two_wheels', {
     if (!shows.includes('centre') || asks || !omega || Math.abs(v / omega) > FAR) return;
     const place = sidewaysFrom(pose, 1, v / omega);
     pane.cross(...place, 'goal'); // over the robot that it may lie under
-    pane.text('turning centre', ...place, { role: 'goal', dy: -26, align: 'center' });
+    const left = place[0] < pose[0] - 0.1; // the text keeps off the robot
+    pane.text('turning centre', ...place,
+        { role: 'goal', dx: left ? -12 : 12, align: left ? 'right' : 'left' });
   },
 });
