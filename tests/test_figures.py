@@ -12,7 +12,6 @@ from looks import drawn, heading_of, pixels_of, place_of
 import wmrlib as wmr
 from wmrbook import figures
 from wmrbook.chapters import challenge, routes
-from wmrbook.chapters.pareto import pareto
 from wmrlib import paper
 
 GAINS, CIRCLE_GAINS, GENTLE = paper.OUTDOOR_GAINS, paper.CIRCLE_GAINS, wmr.GENTLE_GAINS
@@ -48,14 +47,6 @@ def near_goal_runs():
     return [
         wmr.simulate(start, ORIGIN, GAINS, law=law, **options) for law in ("corrected", "printed")
     ]
-
-
-@cache
-def tried():
-    over = {"k_rho": np.array([0.1, 0.2, 0.5]), "h": np.array([1.0, 2.0, 4.0])}
-    runs = wmr.gain_map(CASE.start, CASE.goal, GENTLE, over, progress=False)
-    best = pareto(runs.time, np.abs(runs.heading_error))
-    return runs, best, {"gentle": wmr.arrival(drive(gains=GENTLE))}
 
 
 @cache
@@ -144,7 +135,6 @@ CASES = {
         GROUPS, (1.5, 0.3, "ours"), xlabel="peak speed [m/s]", ylabel="rms distance [m]"
     ),
     "root_locus": lambda: figures.root_locus(GAINS, "k_alpha", np.linspace(0.1, 20.0, 100)),
-    "pareto_front": lambda: figures.pareto_front(*tried()),
     "time_steps": time_steps,
     "inner_loops": lambda: figures.inner_loops({"one": wheel_loops(), "two": {"slow": drive()}}),
     "at_rest": lambda: figures.at_rest(LAGS, {"east": AT_REST}, {"300 s": AT_REST - 1.0}),

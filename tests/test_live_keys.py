@@ -42,7 +42,6 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "two_bars control_law": lambda f: lambda *a: (-f(*a)[0], f(*a)[1]),
     "lag track": lambda f: lambda g, a, k, **o: f(g, a, k._replace(k_rho=1.9), **o),
     "window simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(v_max=4.0), **o),
-    "poles modes": lambda f: lambda k: f(k._replace(h=1 / k.h)),
     "late Receiver": lambda f: lambda delay, heading_delay: f(0, 0, 0, heading_delay, delay),
     "rising lyapunov_rate": lambda f: lambda *a, **o: -f(*a, **o),
     "silence rolled": lambda f: lambda v, timeout, brake: f(v, timeout, -brake),

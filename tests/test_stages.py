@@ -65,6 +65,7 @@ FLIPS = {  # what a stage's module takes from wmrlib, and the same with a flippe
         lambda *a, arrival_radius, **o: f(*a, arrival_radius=0.005 / arrival_radius, **o)
     ),
     "two_numbers simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(h=k.k_rho), **o),
+    "two_numbers modes": lambda f: lambda k: f(k._replace(k_alpha=k.h)),
     "moving_goal track": lambda f: lambda g, a, k, **o: f(g, a, k._replace(k_rho=1 / k.h), **o),
     "late_looks simulate": lambda f: lambda *a, dt, **o: f(*a, dt=0.002 / dt, **o),
     "noisy_fixes sweep": lambda f: lambda a, b, k, **o: f(a, b, _turned_thrice(k), **o),

@@ -8,7 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrbook.chapters.pareto import pareto
 
 PAPER = wmr.paper.OUTDOOR_GAINS
 GENTLE = wmr.GENTLE_GAINS
@@ -161,24 +160,6 @@ def test_longest_steps_without_a_gain_and_in_continuous_time():
     assert [wmr.longest_step(only_turns, method) for method in SAMPLED] == [0.5] * 3
 
 
-# Choices
-
-
-def test_pareto_against_a_double_loop():
-    costs = np.random.default_rng(7).integers(0, 6, (3, 5, 8)).astype(float)
-    costs[0, 0, 0], costs[1, 0, 1] = np.inf, np.nan
-    points = costs.reshape(3, -1).T
-    slow = [
-        bool(np.isfinite(p).all())
-        and not any(np.isfinite(q).all() and (q <= p).all() and (q != p).any() for q in points)
-        for p in points
-    ]
-    chosen = pareto(*costs)
-    assert chosen.shape == (5, 8)
-    assert 0 < chosen.sum() < chosen.size
-    np.testing.assert_array_equal(chosen.ravel(), slow)
-
-
 def test_bad_input():
     pair, point = {"natural_frequency": 1.0, "heading_rate": 1.0}, {"kappa": 2.5, "h": 2.0}
     positive = "is not allowed: a finite number above 0 is needed"
@@ -212,5 +193,3 @@ def test_bad_input():
         [*steps, (((1.0,) * 4,), "a Gains is needed")], lambda inputs: wmr.longest_step(*inputs)
     )
     refuses([((PAPER, "printed"), law)], lambda inputs: wmr.modes(*inputs))
-    shapes = [((), "all of one shape"), ((np.zeros(2), np.zeros(3)), "all of one shape")]
-    refuses(shapes, lambda costs: pareto(*costs))

@@ -105,16 +105,6 @@ def half_turn(values, results, data) -> None:
     np.testing.assert_allclose(results["run"]["y"], -mirrored.y, atol=AGREES)
 
 
-def poles(values, results, data) -> None:
-    gains = wmr.Gains(data["k_rho"], values["k_alpha"], values["h"], data["v_max"])
-    pace = gains.k_rho * gains.v_max
-    loop = python_control().tf([1.0], [1.0, gains.k_alpha, gains.h * pace**2])
-    theirs = np.array([complex(*pole) for pole in results["poles"]])
-    apart = np.abs(np.sort_complex(loop.poles()) - np.sort_complex(theirs)).max()
-    assert apart < 1e-9 * max(1.0, np.abs(theirs).max())
-    same_run(results["run"], data["start"], data["goal"], gains, dt=0.02, duration=30.0)
-
-
 def late(values, results, data) -> None:
     for k, run in enumerate(results["runs"]):
         delays = [0.0, 0.0]

@@ -26,7 +26,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "snapshots",
         ],
         "circle": ["chase", "residual_curve", "tradeoff"],
-        "design": ["pareto_front", "root_locus"],
+        "design": ["root_locus"],
         "sampling": ["inner_loops", "time_steps"],
         "noise": ["at_rest", "designs", "memories"],
         "audit": ["verdicts"],

@@ -1,23 +1,17 @@
-"""Chapter 6: where the poles lie, how the angles settle, and what each choice of gains costs."""
+"""Chapter 6: where the poles of the angles lie, and where a gain moves them."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm
 
 from wmrbook.figures._drawing import note
 from wmrbook.figures.style import COLOURS, Picture, new_figure
 from wmrlib.checks import choice, instance, real
 from wmrlib.gains import Gains
-from wmrlib.runs import Arrival
 from wmrlib.tuning import modes
-
-_MARKS = ("X", "D", "P", "s")
-_LEAST_DEG = 1e-2  # heading left over
 
 
 def root_locus(gains: Gains, over: str, values: np.ndarray) -> Picture:
@@ -52,48 +46,6 @@ def root_locus(gains: Gains, over: str, values: np.ndarray) -> Picture:
         f"Root locus of the angles for {over} from {values[0]:g} to {values[-1]:g}. "
         f"{_course(poles)} At {value} the damping is {here.damping:.3f} and the natural frequency "
         f"{here.natural_frequency:.2f} rad/s; the distance's pole is at {distance_pole:.2f}.",
-    )
-
-
-def pareto_front(tried: Arrival, best: np.ndarray, marked: Mapping[str, Arrival]) -> Picture:
-    """Time against the heading error: all that arrived, the undominated and the marked.
-
-    best: booleans in the shape of the runs, as of `pareto`, drawn large and coloured by peak
-    |omega|. An error below 0.01 deg is drawn at the lower border, an undominated one as a triangle.
-    """
-    arrived, best = np.ravel(tried.arrived), np.ravel(best)
-    time, peak = np.ravel(tried.time), np.ravel(tried.peak_omega)
-    error = np.degrees(np.abs(np.ravel(tried.heading_error)))
-    drawn = np.maximum(error, _LEAST_DEG)
-    below = best & (error < _LEAST_DEG)
-    above = best & ~below
-    figure, axes = new_figure(7.5, 5.2)
-    small = {"ms": 2, "color": "#BBBBBB", "rasterized": True, "label": "tried"}
-    axes.plot(time[arrived], drawn[arrived], ".", **small)
-    looks = {"cmap": "viridis", "norm": LogNorm(peak[best].min(), peak[best].max())}
-    looks |= {"ec": COLOURS["ink"], "lw": 0.4, "zorder": 3}
-    large = {"c": peak[above], "s": 28, "label": "not dominated"}
-    dots = axes.scatter(time[above], drawn[above], **large, **looks)
-    if below.any():
-        triangle = {"marker": "v", "clip_on": False, "label": f"below {_LEAST_DEG:g} deg"}
-        axes.scatter(time[below], drawn[below], c=peak[below], s=45, **triangle, **looks)
-    figure.colorbar(dots, ax=axes, label="peak |omega| [rad/s]").ax.tick_params(labelbottom=False)
-    star = {"ms": 13, "color": COLOURS["y_error"], "mec": COLOURS["ink"], "ls": "none", "zorder": 4}
-    words = []
-    for (name, run), mark in zip(marked.items(), _MARKS, strict=False):
-        left = abs(math.degrees(run.heading_error))
-        axes.plot(run.time, left, mark, label=name, **star)
-        words.append(f"{name} {run.time:.1f} s, {left:.1f} deg")
-    axes.set(xlabel="time to arrive [s]", ylabel="heading error [deg]")
-    axes.set(yscale="log", ylim=(_LEAST_DEG, 200.0))
-    figure.legend(loc="outside upper center", ncols=5)
-    if below.any():
-        border = f"{below.sum()} triangles at the lower border are below {_LEAST_DEG:g} deg"
-        words.append(border)
-    return Picture(
-        figure,
-        f"Time against heading error of {arrived.sum()} runs that arrived, {best.sum()} of them "
-        f"undominated, coloured by peak turning rate: {'; '.join(words)}.",
     )
 
 

@@ -19,7 +19,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "angles": ["half_turn", "polar_angles"],
         "lyapunov": ["bowl", "seam", "two_bars"],
         "circle": ["lag", "lqr"],
-        "design": ["poles", "window"],
+        "design": ["window"],
         "noise": ["late"],
         "audit": ["rising"],
         "real_robot": ["silence"],

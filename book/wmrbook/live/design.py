@@ -1,4 +1,4 @@
-"""Chapter 6: poles, gains, and the robot that has them."""
+"""Chapter 6: the plane of the two numbers, and the robot that has them."""
 
 from __future__ import annotations
 
@@ -6,48 +6,8 @@ from wmrbook.live.parts import Knob, Live, choose
 from wmrlib import GENTLE_GAINS, Gains, Pose, arrival, gains_for, modes, paper, simulate
 
 GAINS = Gains(k_rho=0.5, k_alpha=2.0, h=0.5, v_max=4.0)
-HEAVIER = 4.0  # times h, in the prediction
 SIEGWART = (3.0, 8.0, -1.5)  # k_rho, k_alpha, k_beta of Siegwart et al. (2011), section 3.6.2
 START, GOAL = Pose(-2.0, -0.8, 0.6), Pose(0.0, 0.0, 0.0)
-
-
-def poles() -> Live:
-    """The poles of the angles near the goal: drag them, and the gains follow; and back."""
-    pace = GAINS.k_rho * GAINS.v_max
-    ratio = modes(GAINS._replace(h=HEAVIER * GAINS.h)).damping / modes(GAINS).damping
-    return Live(
-        "poles",
-        f"With [*k_rho* *v_max* = {pace:g}] per second the poles of the angles solve "
-        f"[*s*² + {{k_alpha!}} *s* + {pace**2:g} · {{h!}} = 0]: a natural frequency of "
-        "{frequency}, a damping ratio of {damping}. From about two metres the robot {end}.",
-        {
-            "k_alpha": Knob(
-                GAINS.k_alpha, 0.0, 9.0, 0.1, "steering towards the goal, k_alpha", "1/s", "k_alpha"
-            ),
-            "h": Knob(GAINS.h, 0.05, 5.0, 0.05, "weight of the final heading, h", "", "h"),
-        },
-        data={"k_rho": GAINS.k_rho, "v_max": GAINS.v_max, "start": list(START), "goal": list(GOAL)},
-        ask=choose(
-            "The weight h of the final heading is made four times as large. What becomes of the "
-            "damping ratio?",
-            "It is k_alpha over twice the natural frequency, which grows with the root of h.",
-            answers={
-                "it is halved": 0.4 < ratio < 0.6,
-                "it stays": 0.9 < ratio < 1.1,
-                "it is doubled": 1.9 < ratio < 2.1,
-                "it is quartered": 0.2 < ratio < 0.3,
-            },
-            wrong=(
-                "",
-                "k_alpha stays, but it is compared with the natural frequency, which h makes "
-                "larger.",
-                "h is the spring, not the damper: a stiffer spring makes the same damper a weaker "
-                "one.",
-                "Four times h is twice the natural frequency, not four times.",
-            ),
-            asked=({"h": 2.0},),
-        ),
-    )
 
 
 def window() -> Live:

@@ -170,7 +170,7 @@ def nearer() -> tuple[str, list[Option], str]:
     return ask, cases(near[0] if len(near) == 1 else None, options), why
 
 
-@question(6, "The loop near the goal", "One gain against the swing")
+@question(6, "How fast do the two settle?", "One gain against the swing")
 def damping() -> tuple[str, list[Option], str]:
     gains = wmr.paper.OUTDOOR_GAINS
     changes = {
@@ -195,7 +195,7 @@ def damping() -> tuple[str, list[Option], str]:
     return ask, cases(best, changes), why
 
 
-@question(6, "Root loci: what each gain can do", "More steering still")
+@question(6, "What can each gain do?", "More steering still")
 def more_steering() -> tuple[str, list[Option], str]:
     critical = wmr.gains_for(1.0, natural_frequency=1.0)
     strong = critical._replace(k_alpha=4.0 * critical.k_alpha)

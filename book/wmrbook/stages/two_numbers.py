@@ -7,9 +7,11 @@ import math
 from wmrbook.stages.parts import GENTLE, Question, Scene, Stage, gain_knobs, off_heading
 from wmrlib import Pose, paper, simulate
 from wmrlib.gains import Gains
+from wmrlib.tuning import modes
 
 START = Pose(-3.0, -2.0, math.radians(60.0))  # in units of 1/k_rho
 STOPS = 0.02  # of the same
+DESIGNED = {"k_rho": 0.2, "k_alpha": 3.2, "h": 4.0}  # the heading settles twice as fast
 NUMBERS = "*kappa* = {kappa} and *h* = {height}: {window}."
 
 
@@ -28,17 +30,46 @@ def two_numbers(scene: str = "whole") -> Stage:
         "*kappa* is still {kappa}. Only the bar in the corner has changed, and the clock: the path "
         "is {metres} long instead of " + f"{far:.1f} m."
     )
+    ways = _ways(gains)
+    way = next(way for way, right in ways.items() if right)
     scenes = {
         "whole": Scene(
             f"Four gains: which numbers matter? {NUMBERS} It {{ends}}.",
             look="other",
+        ),
+        "settle": Scene(
+            "The distance and the heading error over time, in the corner: which of them settles "
+            "first? The robot {ends}.",
+            look="other",
+            shows=("curves",),
+        ),
+        "poles": Scene(
+            "The poles near the goal: a dot for the distance and crosses for the heading. In the "
+            "green part the heading settles first. Move *k_alpha* and *h*. The robot {ends}.",
+            look="other",
+            shows=("poles",),
+        ),
+        "higher": Scene(
+            "The poles near the goal. The robot {ends}.",
+            look="other",
+            shows=("poles",),
+            still=True,
+            ask=Question(
+                "If *h* is four times as large, where do the two crosses go?",
+                dict.fromkeys(
+                    ways, f"they go {way}. The heading swings faster, and settles no sooner."
+                ),
+                way,
+                {"h": 4 * gains.h},
+            ),
         ),
         "ask": Scene(
             f"{NUMBERS} It {{ends}}.",
             look="other",
             still=True,
             ask=Question(
-                "Halve *k_rho* and *k_alpha* and start twice as far away. The path becomes",
+                "Halve *k_rho* and *k_alpha*, and start twice as far away. What becomes of the "
+                "path?",
                 dict.fromkeys(answers, verdict),
                 next(answer for answer, right in answers.items() if right),
                 {"k_rho": half.k_rho, "k_alpha": half.k_alpha},
@@ -48,6 +79,11 @@ def two_numbers(scene: str = "whole") -> Stage:
             f"In the green window the heading settles first. Here, {NUMBERS} It {{ends}}.",
             look="other",
             to=GENTLE,
+        ),
+        "designed": Scene(
+            f"Gains from a specification. {NUMBERS} It {{ends}}.",
+            look="other",
+            to=DESIGNED,
         ),
     }
     data = {"v_max": gains.v_max, "start": list(START), "stops": STOPS}
@@ -60,6 +96,17 @@ def two_numbers(scene: str = "whole") -> Stage:
         hands=(),
         data=data,
     )
+
+
+def _ways(gains: Gains) -> dict[str, bool]:
+    """Return where the poles of the heading may go as h grows, and which way they do go."""
+    here, there = (modes(it).poles[1] for it in (gains, gains._replace(h=4 * gains.h)))
+    moved = there.real - here.real
+    return {
+        "to the left": moved < -1e-6,
+        "straight up and down": abs(moved) <= 1e-6 and there.imag > here.imag,
+        "to the right": moved > 1e-6,
+    }
 
 
 def _drive(gains: Gains) -> tuple[float, float]:

@@ -14,7 +14,6 @@ export const CONTRACTS = {
   'live/one_step': '6eebb65e',
   'live/passing': 'e28184f2',
   'live/polar_angles': '8e5a898c',
-  'live/poles': '9b3f2ece',
   'live/race': '1e4bb011',
   'live/rising': '37070ef9',
   'live/seam': 'fc844380',
