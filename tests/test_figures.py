@@ -68,8 +68,6 @@ def score(*gains):
 
 
 WAY = wmr.Pose(np.linspace(-3.0, 0.0, 20), np.linspace(-2.0, 0.1, 20), np.linspace(1.0, 0.2, 20))
-LIMITS, LEFT = np.array([1.0, 2.0, 4.0]), np.array([0.524, 0.199, 0.090])
-GROUPS = {"one": (np.array([1.0, 2.0]), np.array([0.5, 0.4])), "two": (np.array([3.0]), [0.25])}
 STEPS = np.array([0.02, 0.1, 0.7, 1.0])
 MEMORY = np.array([0.0, 3.0, 1e9])  # s
 MANY = np.array([0.0, 3.0, 30.0, 300.0])  # s
@@ -77,11 +75,6 @@ FOUND = {  # distance, m, and heading error, deg
     "10 Hz": (np.array([0.2, 0.5, 1.4]), np.array([80.0, 91.0, 12.0])),
     "1 Hz": (np.array([0.3, 0.6, 1.5]), np.array([70.0, 40.0, 20.0])),
 }
-
-
-def predict(v_max):
-    """What `LEFT` is nearly."""
-    return np.interp(v_max, LIMITS, LEFT - 0.001)
 
 
 def wheel_loops():
@@ -129,11 +122,6 @@ CASES = {
     "snapshots, tall": lambda: figures.snapshots(drive(), [0.0, 5.0, 10.0, drive().t[-1]]),
     "snapshots, wide": lambda: figures.snapshots(drive(x_axis="north"), [0.0, 5.0, 14.0]),
     "block_diagram": lambda: figures.block_diagram(0.2, 4.0),
-    "chase": lambda: figures.chase({"one": chase()}),
-    "residual_curve": lambda: figures.residual_curve(LIMITS, LEFT, predict, published=0.1),
-    "tradeoff": lambda: figures.tradeoff(
-        GROUPS, (1.5, 0.3, "ours"), xlabel="peak speed [m/s]", ylabel="rms distance [m]"
-    ),
     "root_locus": lambda: figures.root_locus(GAINS, "k_alpha", np.linspace(0.1, 20.0, 100)),
     "time_steps": time_steps,
     "inner_loops": lambda: figures.inner_loops({"one": wheel_loops(), "two": {"slow": drive()}}),
@@ -222,13 +210,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "the goal's heading is -60 deg",
     ],
     "block_diagram": lambda: ["every 0.2 s", "every 0.05 s"],
-    "chase": lambda: [
-        "A grey reference circle of radius 4 m about (-4, 0) m, driven once round "
-        "counter-clockwise from (0, 0) m, and the robot that starts at (1, 2) m; "
-        "distance from the goal at the end: one 0.090 m."
-    ],
-    "residual_curve": lambda: ["differ by at most 0.0010 m"],
-    "tradeoff": lambda: ["one from 0.4 to 0.5; two from 0.25 to 0.25; ours at (1.50, 0.30)"],
     "root_locus": lambda: [
         "for k_alpha from 0.1 to 20. "
         f"The pair runs on a circle of {8.0 * math.sqrt(0.3):.2f} rad/s to the real axis and parts"
@@ -457,7 +438,7 @@ BAD = [
     (r"runs\['one'\] = 3 .* a Trajectory is needed", "figures_8_to_12", ({"one": 3},)),
     (r"distance = 0\.0 is not allowed", "endpoints", (0.0, {"one": 1.0})),
     ("mismatched lengths", "endpoints", (np.ones(2), {"one": np.ones(3)})),
-    ("runs = .* is not allowed: a Mapping is needed", "chase", ([3],)),
+    ("runs = .* is not allowed: a Mapping is needed", "heading_to_go", ([3],)),
     ("a Trajectory is needed", "snapshots", (3, [0.0, 1.0])),
     ("one = .* is not allowed", "endpoints", (1.0, {"one": np.array([math.nan])})),
     (r"time_step = 0\.0 is not allowed", "block_diagram", (0.0, 10.0)),
@@ -468,13 +449,6 @@ BAD = [
     ("heading has 2 entries, .* 1 are needed", "designs", (MANY, {"a": MANY}, FOUND)),
     ("memory's values has 5 entries", "designs", (np.arange(5.0), {"a": MANY}, {"a": MANY})),
     ("counts has 0 entries", "verdicts", ({},)),
-    ("mismatched lengths", "residual_curve", (LIMITS, LEFT[:2], predict), {"published": 0.1}),
-    (
-        r"one x = 0\.0 is not allowed",
-        "tradeoff",
-        ({"one": (0.0, 1.0)}, (1, 1, "a")),
-        {"xlabel": "", "ylabel": ""},
-    ),
     ("a Route is needed, not a Pose", "route", (WAY,)),
     ("a Score is needed, not a Gains", "challenge_paths", (GAINS,)),
     ("runs has 0 entries", "heading_powers", ({}, {})),
@@ -496,7 +470,6 @@ def test_a_run_without_a_sample_is_named_and_so_is_a_picture_without_a_drive():
         ("angles_over_time", (lost,), "runs[0]"),
         ("snapshots", one["moments"], "run"),
         ("figures_8_to_12", (several,), "runs['lost']"),
-        ("chase", (several,), "runs['lost']"),
         ("heading_powers", (several, {}), "runs['lost']"),
         ("inner_loops", ({"near": several, "far": several},), "cases['near']['lost']"),
     ]

@@ -8,7 +8,6 @@ import pytest
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from wmrbook import live
-from wmrbook.live import circle
 
 
 def _turned(goal):
@@ -40,7 +39,6 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "bowl simulate": _uphill,
     "seam sweep": lambda f: lambda *a, **o: f(*a, **o | {"hysteresis": 0.4}),
     "two_bars control_law": lambda f: lambda *a: (-f(*a)[0], f(*a)[1]),
-    "lag track": lambda f: lambda g, a, k, **o: f(g, a, k._replace(k_rho=1.9), **o),
     "window simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(v_max=4.0), **o),
     "late Receiver": lambda f: lambda delay, heading_delay: f(0, 0, 0, heading_delay, delay),
     "rising lyapunov_rate": lambda f: lambda *a, **o: -f(*a, **o),
@@ -64,10 +62,3 @@ def test_a_flipped_sign_changes_what_is_right_or_is_refused(monkeypatch, flipped
         return
     shown = "why" if before["kind"] == "sketch" else "key"
     assert after is None or after[shown] != before[shown]
-
-
-def test_what_is_aside_is_no_faster_only_because_the_wheels_cannot_push_there(monkeypatch):
-    key = live.lqr().setup["ask"]["key"]
-    monkeypatch.setattr(circle, "B", -circle.np.eye(3)[:, :2])  # a robot that moves sideways
-    monkeypatch.setattr(circle, "A", 0 * circle.A + circle.np.diag([0.0, 0.0, -50.0]))
-    assert live.lqr().setup["ask"]["key"] != key

@@ -146,14 +146,14 @@ def test_an_answer_is_judged_and_can_be_tried_again(emptied_page):
 
 def test_a_remembered_answer_opens_a_figure(browser_page):
     browser_page.add_init_script("globalThis.wmrKit = () => {}")  # as where a page remembers
-    ask = live.lag().setup["ask"]
-    asked = ask["asked"][0]["k_rho"]
-    answer(mounted(browser_page, live.lag()), ask)
-    panel = mounted(browser_page, live.lag())
-    assert panel.get("k_rho") == asked
+    ask = live.stopping().setup["ask"]
+    asked = ask["asked"][-1]["stop"]
+    answer(mounted(browser_page, live.stopping()), ask)
+    panel = mounted(browser_page, live.stopping())
+    assert panel.get("stop") == asked
     browser_page.get_by_label("more about predictions").click()
     panel.press("Forget all my answers")
-    assert panel.get("k_rho") == mounted(browser_page, live.lag()).get("k_rho") < asked
+    assert panel.get("stop") == mounted(browser_page, live.stopping()).get("stop") != asked
 
 
 def test_a_sketch_is_drawn_by_hand_and_judged_by_its_distance_from_the_way(emptied_page):
@@ -191,7 +191,6 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused(emptied_page):
     ("name", "handle", "key", "knob", "sign"),
     [
         ("late", "set_off", "ArrowUp", "set_off", 0),
-        ("lag", "predicted", "ArrowUp", "k_rho", -1),  # a longer distance is a gentler pull
     ],
 )
 def test_what_can_be_held_moves_the_figure(emptied_page, name, handle, key, knob, sign):

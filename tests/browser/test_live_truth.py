@@ -209,31 +209,6 @@ def two_bars(values, results, data) -> None:
     assert rises.any() == (values["law"] != "corrected")
 
 
-def round_the_circle(gains, law="corrected") -> wmr.Trajectory:
-    circle, options = (wmr.paper.circle, wmr.paper.CIRCLE_START), {"duration": 40.0, "dt": 0.1}
-    return wmr.track(*circle, gains, law=law, method="continuous", **options)
-
-
-def lag(values, results, data) -> None:
-    gains = wmr.paper.CIRCLE_GAINS._replace(k_rho=values["k_rho"], v_max=values["v_max"])
-    ours = round_the_circle(gains)
-    np.testing.assert_allclose(results["run"]["rho"], ours.rho, atol=AGREES)
-    assert results["residual"] == pytest.approx(wmr.residual(ours), abs=AGREES)
-    kept = wmr.control_law(results["predicted"], 0.0, 0.0, gains)[0]  # there it keeps up
-    assert kept == pytest.approx(wmr.paper.CIRCLE_SPEED, rel=1e-12)
-
-
-def lqr(values, results, data) -> None:
-    A, B = np.array(data["A"]), np.array(data["B"])
-    K, _, poles = python_control().lqr(A, B, values["q"] * np.eye(3), np.eye(2))
-    np.testing.assert_allclose(results["K"], K, atol=1e-9)
-    theirs = np.array([complex(*pole) for pole in results["poles"]])
-    assert np.abs(np.sort_complex(theirs) - np.sort_complex(poles)).max() < 1e-6
-    ours = round_the_circle(wmr.LinearGains(-K), "linear")
-    np.testing.assert_allclose(results["run"]["x"], ours.x, atol=AGREES)
-    np.testing.assert_allclose(results["run"]["omega"], ours.omega, atol=1e-6)
-
-
 def window(values, results, data) -> None:
     gains, start = wmr.Gains(1.0, values["kappa"], values["h"], 1.0), pose(data["start"])
     options = {"dt": 0.02, "duration": 90.0, "arrival_radius": 1e-6}

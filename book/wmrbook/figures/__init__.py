@@ -25,7 +25,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "heading_to_go",
             "snapshots",
         ],
-        "circle": ["chase", "residual_curve", "tradeoff"],
         "design": ["root_locus"],
         "sampling": ["inner_loops", "time_steps"],
         "noise": ["at_rest", "designs", "memories"],

@@ -18,7 +18,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "robot": ["one_step"],
         "angles": ["half_turn", "polar_angles"],
         "lyapunov": ["bowl", "seam", "two_bars"],
-        "circle": ["lag", "lqr"],
         "design": ["window"],
         "noise": ["late"],
         "audit": ["rising"],

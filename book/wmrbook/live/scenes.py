@@ -52,11 +52,6 @@ SCENES = {
             {"choice": "paper", "tilt": 60.0, "yaw": 0.0},
         ),
     ),
-    "lag": (
-        Step("at first", "It keeps up with its goal, and stays behind it."),
-        Step("k_rho doubled", "k_rho twice as large: half the distance.", {"k_rho": 3.8}),
-        Step("v_max doubled", "v_max twice as large: less than half.", {"v_max": 8.0}),
-    ),
     "window": (
         Step(
             "it swings",

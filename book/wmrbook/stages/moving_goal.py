@@ -23,6 +23,19 @@ def moving_goal(scene: str = "whole") -> Stage:
             f"The goal drives round and never stops. Does the robot catch it? {STAYS}",
             look="other",
         ),
+        "goal": Scene(
+            f"The goal alone, which drives once round in {DURATION:.0f} seconds. Could a robot "
+            "drive like this?",
+            look="other",
+            shows=("goal",),
+            empty=True,
+        ),
+        "speeds": Scene(
+            "In the corner: the speed that the law asks for at each distance, and the goal's. "
+            "Where they cross, the gap stays: {gap}.",
+            look="other",
+            shows=("speeds",),
+        ),
         "ask": Scene(
             STAYS,
             look="other",
@@ -33,6 +46,13 @@ def moving_goal(scene: str = "whole") -> Stage:
                 f"*{best}*",
                 {best: 2 * getattr(gains, best)},
             ),
+        ),
+        "frame": Scene(
+            "Seen from the robot, the goal is {ahead} and {aside}, and it faces {turned}. Drag "
+            "the robot.",
+            look="other",
+            shows=("frame",),
+            still=True,
         ),
         "speed": Scene(
             f"Now it also knows how fast the goal drives and turns. {STAYS}",
@@ -46,6 +66,7 @@ def moving_goal(scene: str = "whole") -> Stage:
         "feedback": KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)._asdict(),
         "duration": DURATION,
         "radius": paper.CIRCLE_RADIUS,
+        "speed": paper.CIRCLE_SPEED,
     }
     knobs = gain_knobs(gains) | {"law": law}
     return Stage("moving_goal", knobs, scenes, scene, start=paper.CIRCLE_START, data=data)

@@ -145,7 +145,7 @@ def braking(answer: Any) -> str:
 
 @exercise
 def one_centimetre(answer: Any) -> str:
-    """7.1: k_rho that leaves 1 cm, and the step below which a robot exactly behind settles."""
+    """7.5: k_rho that leaves 1 cm, and the step below which a robot exactly behind settles."""
     gain, step = numbers("`answer`", answer, 2)
     expect(gain > 0.0, _POSITIVE)
     right = -math.log(1.0 - paper.CIRCLE_SPEED / 4.0) / 0.01
@@ -168,7 +168,7 @@ def one_centimetre(answer: Any) -> str:
 
 @exercise
 def kanayama(V_rate: Any) -> str:
-    """7.2: V' along (7.3) under (7.4), of the errors, v_ref and the gains."""
+    """7.3: V' along (7.3) under (7.4), of the errors, v_ref and the gains."""
     e_x, e_y, e_h = sp.symbols("e_x e_y e_h", real=True)
     k_x, k_y, k_h = sp.symbols("k_x k_y k_h", positive=True)
     along, across = -k_x * e_x**2, -k_h / k_y * v_ref * sp.sin(e_h) ** 2
@@ -189,7 +189,7 @@ def kanayama(V_rate: Any) -> str:
 
 @exercise
 def announced_too_low(answer: Any) -> str:
-    """7.3: how far ahead a goal stays whose speed is announced 10 % too low."""
+    """7.4: how far ahead a goal stays whose speed is announced 10 % too low."""
     value, speed = number("`answer`", answer), paper.CIRCLE_SPEED
     turning = 2.0 * math.pi / paper.CIRCLE_PERIOD
     right = 0.1 * speed / (1.0 + turning**2 / speed)

@@ -6,7 +6,6 @@ export * from './numbers.js';
 export * from './runs.js';
 export { DEGREES, complex, inDegrees, inWords, lengthText, written } from './style.js';
 export { disc, inside } from './surface.js';
-export { driveContinuously } from './continuous.js';
 export { TRACK } from './face.js';
 export { live } from './live.js';
 export { stage } from './stage.js';
