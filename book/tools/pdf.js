@@ -28,6 +28,8 @@ window.paper = (() => {
       const short = lines.length <= LONG && !lines.some((it) => /^(import|from) /.test(it));
       fold.open = !fold.matches('.above-input') || short; // solutions, where there are any
     }
+    for (const it of all('.cell.tag_hide-cell'))
+      if (it.textContent.includes('# Check')) it.remove(); // for whoever has changed a number
     for (const it of all('.cell'))
       if (![...it.children].some((part) => part.checkVisibility())) it.remove();
     all('img').forEach((it) => { it.loading = 'eager'; });
