@@ -7,6 +7,8 @@ lecturer alone, in folders of their own, since the other decks are for everybody
 In a deck's source each `# claim` begins a slide. A line `figure: CELL` below it shows what that
 cell of the chapter has stored, a figure or a panel (`03/CELL`: of chapter 3). A panel may begin
 elsewhere, `figure: CELL theta=90 law=printed`, and without its prediction: `figure: CELL open`.
+A stage begins with one of its scenes, `figure: CELL scene=near h=0 start=0,-4,90`: the knobs and
+poses (metres and degrees) stand so in this scene.
 What follows `note:` is for the speaker. OUTPUT/index.html lists the decks; all open from the disk,
 with no network.
 """
@@ -15,6 +17,7 @@ from __future__ import annotations
 
 import html
 import json
+import math
 import re
 import shutil
 from collections.abc import Iterable
@@ -147,26 +150,37 @@ def pictured(data: dict, stored: dict, settings: Iterable[str]) -> str:
 
 
 def place(state: dict, setup: dict, settings: Iterable[str]) -> None:
-    """Set a panel's knobs, each to a value that it allows."""
+    """Set a panel's knobs, each to a value that it allows, and where a stage begins."""
     knobs = {knob["name"]: knob for knob in setup.get("knobs", ())}
+    scenes = {scene["name"]: scene for scene in setup.get("scenes", ())}
+    moved = {}
     for setting in settings:
         name, _, text = setting.partition("=")
         if setting == "open":
             setup["ask"] = None
-        elif name == "scene" and "scenes" in setup:
-            if text not in (allowed := [scene["name"] for scene in setup["scenes"]]):
-                raise SystemExit(f"{setting}: only {', '.join(allowed)}")
+        elif name == "scene" and scenes:
+            if text not in scenes:
+                raise SystemExit(f"{setting}: only {', '.join(scenes)}")
             state[name] = text
+        elif name in setup.get("poses", ()):
+            x, y, heading = map(float, text.split(","))
+            setup["poses"][name] = state[name] = [x, y, math.radians(heading)]
         elif name not in knobs:
             raise SystemExit(f"{setting}: no knob {name!r}, only {', '.join(knobs)}")
         elif "choices" in knobs[name]:
             if text not in (allowed := [value for value, _ in knobs[name]["choices"]]):
                 raise SystemExit(f"{setting}: only {', '.join(allowed)}")
-            state[name] = text
+            moved[name] = text
         elif knobs[name]["low"] <= float(text) <= knobs[name]["high"]:
-            state[name] = float(text)
+            moved[name] = float(text)
         else:
             raise SystemExit(f"{setting}: not from {knobs[name]['low']} to {knobs[name]['high']}")
+    state |= moved
+    if scenes:  # a stage sets its knobs anew when a scene begins
+        scene = scenes[state["scene"]]
+        scene["to"] |= moved
+        if "open" in settings:
+            scene["ask"], scene["still"] = None, False
 
 
 def solved(number: str) -> str:

@@ -66,14 +66,14 @@ export default stage('downhill', {
       }
     });
     if (parts) {
-      pane.text('of the distance', ...inset.at([last / 2, 0.72 * most]),
+      pane.text('of the distance', ...inset.at([0.4 * last, 0.72 * most]),
           { role: 'rho', size: 13, fixed: true });
-      pane.text('of the angles', ...inset.at([last / 2, 0.56 * most]),
+      pane.text('of the angles', ...inset.at([0.4 * last, 0.54 * most]),
           { role: 'alpha', size: 13, fixed: true });
     }
     pane.text('time', ...inset.at([last, 0]),
         { role: 'soft', size: 12, dx: -4, dy: 9, align: 'right', fixed: true });
-    pane.text('V', ...inset.at([last / 2, 0.9 * most]),
+    pane.text('V', ...inset.at([0.4 * last, 0.9 * most]),
         { role: 'V', size: 17, weight: 600, fixed: true });
   },
 });

@@ -60,14 +60,14 @@ const sidewaysFrom = (pose, side, far) =>
 
 export default stage('two_wheels', {
   find({ scene, left, right, answer }, { scenes, data: { track_width: width, seconds } }) {
-    const { shows } = scenes.find(({ name }) => name === scene);
+    const { shows, ask } = scenes.find(({ name }) => name === scene);
     const [v, omega] = Object.values(twistOf(left, right, width))
         .map((value) => (Math.abs(value) < 1e-9 ? 0 : value)); // of sliders that add up to nothing
     const start = shows.includes('velocity') ? SLANTED : START;
     const run = along(start, shows.includes('moves') ? fourMoves(v, omega, seconds)
         : [{ v, omega, seconds }]);
     const straight = ahead(start, v * seconds);
-    const asks = shows.includes('centre') && answer === null; // its drive would tell
+    const asks = Boolean(ask) && shows.includes('centre') && answer === null; // would tell
     return { v, omega, start, straight, wheels: tracksOf(run, width),
       tracks: [{ ...(asks ? along(start, []) : run), role: 'path' }], end: run.pose, run, asks,
       close: shows.length > 0 && !shows.includes('centre'),
