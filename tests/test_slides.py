@@ -1,6 +1,7 @@
 """Each chapter's deck is written as one: claims, pictures, and what to ask a class."""
 
 import json
+import math
 import re
 
 import pytest
@@ -83,3 +84,17 @@ def test_a_lecturers_notes_have_the_exercises_with_their_solutions(number):
     assert solved.count("### Exercise") == solved.count("**Solution.**") == exercises
     assert "<details>" not in solved
     assert "**Solution.**" not in source(number)
+
+
+def test_a_stage_stands_in_its_scene_as_its_slide_says():
+    stage = slides.picture_of("04", "opening-scene", "scene=ask", "h=0", "start=1,-3,90", "open")
+    state = json.loads(re.findall(r">(\{.*?\})</script>", stage)[1])["state"]["it"]["state"]
+    (scene,) = (it for it in state["setup"]["scenes"] if it["name"] == "ask")
+    assert (scene["to"], scene["ask"]) == ({"h": 0.0}, None)
+    assert state["setup"]["poses"]["start"] == [1.0, -3.0, math.radians(90.0)]
+
+
+@pytest.mark.parametrize("number", ["00", "01", "02", "03", "04", "05", "08"])
+def test_no_picture_stands_twice_in_a_deck(number):
+    figures = re.findall(r"^figure: (.*)$", source(number), re.MULTILINE)
+    assert sorted(figures) == sorted({*figures})
