@@ -12,7 +12,7 @@ from wmrbook.questions._asking import Option, cases, numbers, question, sign
 _East = wmr.Pose(0.0, 0.0, 0.0)
 
 
-@question(0, "It has arrived. Has it parked?", "Where does it face its goal's heading best?")
+@question(0, "How does it end?", "Where does it face its goal's heading best?")
 def arrived_parked() -> tuple[str, list[Option], str]:
     case = wmr.paper.outdoor()
     fine = {"method": "continuous", "dt": 0.02, "arrival_radius": 0.009}
@@ -22,22 +22,22 @@ def arrived_parked() -> tuple[str, list[Option], str]:
     sizes = [abs(error) for error in errors]
     best, even = radii[sizes.index(min(sizes))], max(sizes) - min(sizes) < 5.0
     through = errors[0] > 50.0 > -50.0 > errors[-1]
-    ask = """The paper's drive ($x$ east, $k_\\rho$ 2, $k_\\alpha$ 1, $h$ 0.3, $v_{\\max}$ 4,
-        continuous time) is stopped 30, 10, 5 or 1 cm before its goal. Where does the robot look
+    ask = """The paper's robot ($k_\\rho$ 2, $k_\\alpha$ 1, $h$ 0.3, $v_{\\max}$ 4) looks at its
+        goal all the time. It is stopped 30, 10, 5 or 1 cm before the goal. Where does it face
         most nearly the right way?"""
     options = {
-        0.3: ("at 30 cm", "the heading only gets worse"),
+        0.3: ("at 30 cm", "a heading that swings taken for one that only gets worse"),
         0.1: ("at 10 cm", ""),
         0.05: ("at 5 cm", "a usual tolerance taken for the best"),
-        0.01: ("at 1 cm", "the closer, the better"),
-        "even": ("equally well at all four", "on the spot is parked"),
+        0.01: ("at 1 cm", "the heading error taken to fade with the distance"),
+        "even": ("equally well at all four", "a robot that has arrived taken to be parked"),
     }
-    why = """The heading swings from 50 deg on one side to 50 on the other over the last 30 cm,
-        and passes zero near 10 cm by luck."""
+    why = """On this drive the heading swings from 50 deg on one side to 50 on the other over the
+        last 30 cm, and passes through zero near 10 cm. So the number depends on where we stop."""
     return ask, cases("even" if even else best if through else None, options), why
 
 
-@question(1, "When is a flat map good enough?", "Latitude and longitude swapped")
+@question(1, "How long is a degree?", "Latitude and longitude swapped")
 def swapped_points() -> tuple[str, list[Option], str]:
     lat, apart = 60.0, 100.0
     start = wmr.GeoPoint(lat=lat, lon=11.0)
@@ -45,7 +45,7 @@ def swapped_points() -> tuple[str, list[Option], str]:
     swapped = [wmr.GeoPoint(lat=point.lon, lon=point.lat) for point in (start, end)]
     slope = math.radians(lat)
     mistaken = {
-        "a distance does not care about names": apart,
+        "a distance taken not to depend on which number is which": apart,
         "the cosine of the latitude, the wrong way round": apart * math.cos(slope),
         "a sine in place of the cosine": apart / math.sin(slope),
         "a tangent in place of the cosine": apart * math.tan(slope),
@@ -102,9 +102,9 @@ def four_moves() -> tuple[str, list[Option], str]:
         right. Where is it then, mainly, seen from where it began?"""
     options = {
         (0, -1): ("to the right", ""),
-        (0, 1): ("to the left", "as the nose turned first"),
-        (0, 0): ("where it began", "each move was undone"),
-        (1, 0): ("ahead", "wheels can't move it sideways"),
+        (0, 1): ("to the left", "the side of the first turn taken for the side of the drive"),
+        (0, 0): ("where it began", "each move taken to be undone by a later one"),
+        (1, 0): ("ahead", "no velocity to the side taken for no way to the side"),
         (-1, 0): ("behind", "the drive back taken for the longer one"),
     }
     why = """It backs along a line that is turned left, so to the right. The wheels forbid a
@@ -128,7 +128,7 @@ def two_angles() -> tuple[str, list[Option], str]:
         (a, b): (pair(a, b), ""),
         (-a, -b): (pair(-a, -b), "both from the line of sight to the heading"),
         (a, b + 360): (pair(a, b + 360), "$\\theta$ left unwrapped"),
-        (a, -b): (pair(a, -b), "$\\beta$ taken for $\\theta$"),
+        (a, -b): (pair(a, -b), "$\\theta$ turned from the line of sight to the heading"),
         (b, a): (pair(b, a), "$\\alpha$ and $\\theta$ in each other's place"),
     }
     ask = """The robot faces north-west. Its goal lies due west and looks south. Which angles
@@ -152,8 +152,8 @@ def beta_or_theta() -> tuple[str, list[Option], str]:
         $\\beta$ belongs. What does the robot do?"""
     options = {
         (True, False): ("reaches the place, looks another way", ""),
-        (True, True): ("parks as before", "only the angle's name has changed"),
-        (False, False): ("never comes near the place", "one wrong sign spoils everything"),
+        (True, True): ("parks as before", "a sign taken for a matter of names"),
+        (False, False): ("never comes near the place", "the speed taken to need the third angle"),
         "mirror": ("parks on the mirrored path", "both angles taken for mirrored"),
         "spin": ("spins on the spot", "the sign of $\\alpha$ taken for wrong"),
     }

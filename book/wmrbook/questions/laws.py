@@ -10,21 +10,22 @@ import wmrlib as wmr
 from wmrbook.questions._asking import Option, cases, numbers, question, sign
 
 
-@question(4, "The theorem", "V stands still. And now?")
+@question(4, "Where could it get stuck?", "V stands still. And now?")
 def level_spot() -> tuple[str, list[Option], str]:
     gains, rho, theta = wmr.GENTLE_GAINS, 1e-9, math.radians(60.0)
     here = wmr.polar_rate(rho, 0.0, *wmr.control_law(rho, 0.0, theta, gains))
     alpha = 1e-3 * here[1]  # a millisecond later
     later = wmr.lyapunov_rate(rho, alpha, theta, gains)
     computed = sign(here[1], 0.1), sign(here[2], 1e-6), sign(later, 1e-9)
-    ask = """At $\\rho \\to 0$, $\\alpha = 0$, $\\theta$ = 60 deg the corrected law ($h > 0$)
-        gives $\\dot V = 0$. What happens next?"""
+    ask = """The robot is practically on its goal and looks straight at it, so $\\alpha = 0$ and
+        $\\dot V = 0$. But $\\theta$ is 60 deg. It drives by the corrected law, with $h > 0$. What
+        happens next?"""
     options = {
         (-1, 0, -1): ("$\\alpha$ changes, then $V$ falls again", ""),
         (0, 0, 0): ("nothing: the robot stays so", "$\\dot V = 0$ taken for rest"),
         (0, -1, -1): ("$\\theta$ falls, $\\alpha$ stays 0", "$h$ taken to act on $\\theta$ itself"),
         (1, 0, 1): ("$\\alpha$ changes, and $V$ rises", "$\\dot V$ taken to change its sign at 0"),
-        (0, 1, 1): ("$\\theta$ grows, and $V$ with it", "the goal taken for unstable"),
+        (0, 1, 1): ("$\\theta$ grows, and $V$ with it", "the robot taken to leave its goal"),
     }
     why = """The state can't stay where $\\dot V = 0$: $\\dot\\alpha$ is not zero there while
         $\\theta$ is not. This is LaSalle's step."""
@@ -81,12 +82,12 @@ def tenth_of_a_second() -> tuple[str, list[Option], str]:
         0.9: ("a little less", "holding a command taken to smooth it"),
         0.5: ("less than half as far", "holding a command taken for damping"),
     }
-    why = f"""Near the goal this step is not inaccurate but unstable: {too_long:.1f} times longer
-        than these gains allow."""
+    why = f"""At the end it turns at some 4 rad/s, and so by tens of degrees between two looks.
+        Chapter 8 computes that this step is {too_long:.1f} times too long for these gains."""
     return ask, cases(computed, options), why
 
 
-@question(5, "Does it park from many starts?", "In the mirror")
+@question(5, "Are the paper's sentences true?", "In the mirror")
 def mirror() -> tuple[str, list[Option], str]:
     alpha, theta, gains = 0.7, -1.1, wmr.paper.OUTDOOR_GAINS
     v, omega = wmr.control_law(3.0, alpha, theta, gains)
@@ -109,7 +110,7 @@ def mirror() -> tuple[str, list[Option], str]:
     return ask, cases((change(v, mirrored_v), change(omega, mirrored_omega)), options), why
 
 
-@question(7, "Why it lags behind", "How far behind?")
+@question(7, "Why it stays behind", "How far behind?")
 def how_far_behind() -> tuple[str, list[Option], str]:
     speed, gains, low, high = 1.0, wmr.Gains(1.0, 1.0, 0.3, 2.0), 0.0, 50.0
     for _ in range(60):  # the distance at which the law commands this speed
@@ -131,7 +132,7 @@ def how_far_behind() -> tuple[str, list[Option], str]:
     return ask, numbers(low, mistaken, "{:.2f} m"), why
 
 
-@question(7, "What it says nothing about", "Which gain brings it nearer?")
+@question(7, "What the gap depends on", "Which gain brings it nearer?")
 def nearer() -> tuple[str, list[Option], str]:
     gains = wmr.paper.CIRCLE_GAINS
     changes = {
