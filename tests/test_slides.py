@@ -98,3 +98,11 @@ def test_a_stage_stands_in_its_scene_as_its_slide_says():
 def test_no_picture_stands_twice_in_a_deck(number):
     figures = re.findall(r"^figure: (.*)$", source(number), re.MULTILINE)
     assert sorted(figures) == sorted({*figures})
+
+
+def test_items_of_some_lists_appear_one_by_one(tmp_path):
+    words = "+ first\n+ second\n\n> 1) third\n\n- at once"
+    slides.write(tmp_path / "deck.html", "Title", [slides.Slide("Claim", words)])
+    page = (tmp_path / "deck.html").read_text(encoding="utf-8")
+    later = re.findall(r'<li class="fragment">\s*(?:<p>)?(\w+)', page)
+    assert later == ["first", "second", "third"]

@@ -8,7 +8,8 @@ In a deck's source each `# claim` begins a slide. A line `figure: CELL` below it
 cell of the chapter has stored, a figure or a panel (`03/CELL`: of chapter 3). A panel may begin
 elsewhere, `figure: CELL theta=90 law=printed`, and without its prediction: `figure: CELL open`.
 A stage begins with one of its scenes, `figure: CELL scene=near h=0 start=0,-4,90`: the knobs and
-poses (metres and degrees) stand so in this scene.
+poses (metres and degrees) stand so in this scene. The items of a list of `+` or `1)` appear one
+by one.
 What follows `note:` is for the speaker. OUTPUT/index.html lists the decks; all open from the disk,
 with no network.
 """
@@ -31,6 +32,7 @@ from build import BOOK, NPM_FILES, ROOT, arguments, copy_javascript, install_jav
 from jinja2 import Environment, FileSystemLoader
 from kit import bundle
 from markdown_it import MarkdownIt
+from markdown_it.rules_core import StateCore
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 from nbformat import NotebookNode
 
@@ -197,10 +199,18 @@ def write(path: Path, title: str, slides: list[Slide], number: int | None = None
     written = MarkdownIt("commonmark", {"typographer": True})
     written.enable(["table", "replacements", "smartquotes"])
     written.use(dollarmath_plugin, renderer=formula, double_inline=True)
+    written.core.ruler.push("stepwise", stepwise)
     pages.filters |= {"words": written.render, "line": written.renderInline, "wide": wide}
     page = pages.get_template("index.html.j2")
     path.write_text(page.render(title=title, slides=slides, number=number), encoding="utf-8")
     print(path, flush=True)
+
+
+def stepwise(state: StateCore) -> None:
+    """Let the items of some lists appear one by one."""
+    for token in state.tokens:
+        if token.type == "list_item_open" and token.markup in ("+", ")"):
+            token.attrJoin("class", "fragment")
 
 
 def formula(text: str, options: dict) -> str:
@@ -210,7 +220,7 @@ def formula(text: str, options: dict) -> str:
 
 def wide(slide: Slide) -> bool:
     """Whether a slide's picture takes the width, with one line of words below it."""
-    return "panel" in slide.picture or not re.search(r"\$\$|^(?:[->|<]|1\. )", slide.words, re.M)
+    return "panel" in slide.picture or not re.search(r"\$\$|^(?:[-+>|<]|1[.)] )", slide.words, re.M)
 
 
 def lay_out(output: Path) -> None:
