@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from wmrbook.live.parts import Knob, Live, choose
-from wmrlib import GENTLE_GAINS, Gains, Pose, arrival, gains_for, modes, paper, simulate
+from wmrbook.live.parts import Knob, Live, choose, nearest
+from wmrlib import GENTLE_GAINS, Gains, gains_for, modes, paper
 
-GAINS = Gains(k_rho=0.5, k_alpha=2.0, h=0.5, v_max=4.0)
+CRITICAL = {"kappa": 1.0, "h": 0.25}  # damping 1, outside the window
 SIEGWART = (3.0, 8.0, -1.5)  # k_rho, k_alpha, k_beta of Siegwart et al. (2011), section 3.6.2
-START, GOAL = Pose(-2.0, -0.8, 0.6), Pose(0.0, 0.0, 0.0)
 
 
 def window() -> Live:
@@ -21,10 +20,7 @@ def window() -> Live:
     # near the goal alpha' = -(k_alpha - k_rho) alpha + k_beta theta, and theta' = k_rho alpha
     k_rho, k_alpha, k_beta = SIEGWART
     points.append(("Siegwart", (k_alpha - k_rho) / k_rho, -k_beta / k_rho))
-    twice = GAINS._replace(k_alpha=2 * GAINS.k_alpha, v_max=2 * GAINS.v_max)
-    options = {"method": "continuous", "arrival_radius": 0.01}
-    one, two = (arrival(simulate(START, GOAL, gains, **options)) for gains in (GAINS, twice))
-    longer, time = two.path_length / one.path_length, two.time / one.time
+    critical = modes(Gains(k_rho=1.0, k_alpha=CRITICAL["kappa"], h=CRITICAL["h"], v_max=1.0))
     return Live(
         "window",
         "With {kappa} and {h} the gains are {place}: near the goal the heading settles {compared} "
@@ -36,20 +32,21 @@ def window() -> Live:
         },
         data={"named": points, "start": [-1.0, -4.5, 0.6]},
         ask=choose(
-            "v_max and k_alpha are doubled; k_rho and h stay. What becomes of the path?",
-            "The path has only two numbers, kappa = k_alpha/(v_max k_rho) and h, and neither has "
-            "changed.",
-            answers={
-                "it gets wider": longer > 1.01,
-                "it gets tighter": longer < 0.99,
-                "the same, in half the time": 0.99 < longer < 1.01 and 0.45 < time < 0.55,
-                "the same, in the same time": 0.99 < longer < 1.01 and 0.95 < time < 1.05,
-            },
-            wrong=(
-                "It would be wider with v_max alone; with k_alpha doubled too, kappa stays.",
-                "It would be tighter with k_alpha alone; with v_max doubled too, kappa stays.",
-                "",
-                "The path stays, but the robot is twice as fast on it.",
+            "With kappa = 1 and h = 0.25 the damping is critical: the heading does not swing. How "
+            "fast does it settle, compared with the distance?",
+            "Both poles of the heading are -0.5, and the distance's is -1. Without a swing, and "
+            "yet too late.",
+            answers=nearest(
+                1 / critical.slower,
+                {"twice as fast": 2.0, "just as fast": 1.0, "half as fast": 0.5},
             ),
+            wrong=(
+                "Critical damping is the fastest for this h, but this h is too small: both poles "
+                "are -0.5, and the distance's is -1.",
+                "Damping says whether the heading swings, and not how fast it is beside the "
+                "distance: both poles are -0.5, and the distance's is -1.",
+                "",
+            ),
+            asked=(CRITICAL,),
         ),
     )

@@ -12,6 +12,7 @@ from wmrlib.tuning import modes
 START = Pose(-3.0, -2.0, math.radians(60.0))  # in units of 1/k_rho
 STOPS = 0.02  # of the same
 DESIGNED = {"k_rho": 0.2, "k_alpha": 3.2, "h": 4.0}  # the heading settles twice as fast
+SEARCHED = {"k_rho": 0.33, "k_alpha": 2.64, "h": 3.98}  # the calm set that the search finds
 NUMBERS = "*kappa* = {kappa} and *h* = {height}: {window}."
 
 
@@ -34,7 +35,7 @@ def two_numbers(scene: str = "whole") -> Stage:
     way = next(way for way, right in ways.items() if right)
     scenes = {
         "whole": Scene(
-            f"Four gains: which numbers matter? {NUMBERS} It {{ends}}.",
+            f"Four gains: which numbers matter? {NUMBERS} The robot {{ends}}.",
             look="other",
         ),
         "settle": Scene(
@@ -64,7 +65,7 @@ def two_numbers(scene: str = "whole") -> Stage:
             ),
         ),
         "ask": Scene(
-            f"{NUMBERS} It {{ends}}.",
+            f"{NUMBERS} The robot {{ends}}.",
             look="other",
             still=True,
             ask=Question(
@@ -76,14 +77,27 @@ def two_numbers(scene: str = "whole") -> Stage:
             ),
         ),
         "window": Scene(
-            f"In the green window the heading settles first. Here, {NUMBERS} It {{ends}}.",
+            f"In the green window the heading settles first. Here, {NUMBERS} The robot {{ends}}.",
             look="other",
             to=GENTLE,
         ),
+        "close": Scene(
+            "In the corner, *v*/*rho* at small angles, as a share of its value at the goal. At the "
+            "start it is {share}, so the poles at the goal do not hold there yet. The robot "
+            "{ends}.",
+            look="other",
+            shows=("share",),
+        ),
         "designed": Scene(
-            f"Gains from a specification. {NUMBERS} It {{ends}}.",
+            f"Gains from a specification. {NUMBERS} The robot {{ends}}.",
             look="other",
             to=DESIGNED,
+        ),
+        "searched": Scene(
+            "A search found *k_rho* = 0.33, *k_alpha* = 2.64 and *h* = 3.98. Here, "
+            f"{NUMBERS} The robot {{ends}}.",
+            look="other",
+            to=SEARCHED,
         ),
     }
     data = {"v_max": gains.v_max, "start": list(START), "stops": STOPS}

@@ -42,7 +42,7 @@ export default live('window', {
         `${inside ? 'in' : 'out'}side.`,
         scrub: (x, y, moved) => (moved ? pointAt(x, y, named) : null) },
     path: { x: [-1.5, 0.85], y: [-1.15, 1.15], lawn: true, main: true,
-        given: 'The last metres of the path before the gains are doubled.',
+        given: "The last metres of the path with the paper's gains.",
         alt: `The robot comes to its goal. Over the last tenth of a length its heading is from ` +
         `${fan[0].toFixed(0)} to ${fan[1].toFixed(0)} degrees off, ${late[0].toFixed(1)} ` +
         `at most.` },
@@ -77,7 +77,7 @@ export default live('window', {
     coming.forEach((k) => path.robot(poseAt(run, k), 0.4));
     path.robot(poseAt(run, near));
     if (hidden) return;
-    path.text(`its heading swings over ${(fan[1] - fan[0]).toFixed(0)}°`, 0.8, -0.85,
+    path.text(`its heading still turns by ${(fan[1] - fan[0]).toFixed(0)}°`, 0.8, -0.85,
         { role, size: 15, weight: 600, align: 'right', fixed: true });
   },
   handles: ({ kappa, h }, found, { data: { named } }) => [{

@@ -1,5 +1,5 @@
-// Chapter 6: a drive whose unit of length is 1/k_rho; in a corner its two numbers, its poles, or
-// its distance and its heading over time.
+// Chapter 6: a drive whose unit of length is 1/k_rho; in a corner its two numbers, its poles, its
+// distance and its heading over time, or v/rho as a share of its value at the goal.
 
 import {
   cornerOf, driven, endOf, gainsOf, inWords, insetOf, insetSize, modes, polesOf, stage, summarise,
@@ -10,6 +10,7 @@ const MOST = [8, 6]; // of kappa and h, in the corner
 const CORNER = 170; // px, of its picture
 const POLES = [[-4.6, 0.9], [-2.2, 2.2]]; // the edges of their plane, in units of v_max k_rho
 const DT = 0.03, DURATION = 60; // in units of 1/(v_max k_rho)
+const FAR = 4; // in units of 1/k_rho, the right edge of the share's curve
 
 export default stage('two_numbers', {
   find(values, setup) {
@@ -23,15 +24,16 @@ export default stage('two_numbers', {
   },
   look: (values, { unit }) => [-4.4, -3.2, 1.6, 1.6].map((edge) => edge * unit),
   corner: (values, found, size) => cornerOf(size, CORNER),
-  say: ({ h, goal }, { run, kappa, inside }) => ({
+  say: ({ h, goal }, { run, kappa, unit, inside }) => ({
     kappa: written(kappa), height: inWords(h), ends: endOf(run, goal),
     metres: written(summarise(run).pathLength, 'm'),
+    share: `${(100 * shareAt(run.rho[0] / unit)).toFixed(0)} %`,
     window: `the heading settles ${inside ? '' : 'no '}sooner than the distance`,
   }),
   draw(pane, values, { start: [x, y] }) { pane.dot(x, y, 'start', { hollow: true }); },
-  above(pane, { h }, { run, kappa, inside }, { time, shows }) {
-    const corner = shows.includes('poles') ? poles : shows.includes('curves') ? curves : plane;
-    corner(pane, { h, run, kappa, inside, time });
+  above(pane, { h }, { run, kappa, unit, inside }, { time, k, shows }) {
+    const [corner = plane] = shows.map((name) => ({ poles, curves, share })[name]);
+    corner(pane, { h, run, kappa, unit, inside, time, k });
   },
 });
 
@@ -86,4 +88,20 @@ function curves(pane, { run: { t, rho, alpha, theta, n }, time }) {
   const name = namer(pane, inset, 13);
   name('distance', 0.72 * last, 0.95, 'rho');
   name('heading error', 0.66 * last, -0.95, 'alpha');
+}
+
+const shareAt = (r) => (r > 0 ? -Math.expm1(-r) / r : 1); // of v/rho, straight ahead
+
+function share(pane, { run, unit, k }) {
+  const inset = framed(pane, [-0.4, FAR + 0.3], [-0.22, 1.3]), r = run.rho[k] / unit;
+  inset.within(() => {
+    pane.line([[FAR, 0], [0, 0], [0, 1.2]].map(inset.at), 'soft', { width: 1 });
+    pane.line([[0, 1], [FAR, 1]].map(inset.at), 'soft', { width: 1, dash: [4, 4] });
+    pane.line(Array.from({ length: 41 }, (_, step) => FAR * step / 40)
+      .map((far) => inset.at([far, shareAt(far)])), 'alpha', { width: 2.5 });
+    pane.dot(...inset.at([within(r, 0, FAR), shareAt(r)]), 'path', { size: 7 });
+  });
+  const name = namer(pane, inset, 13);
+  name('as at the goal', 2.4, 1.13, 'soft');
+  name('distance', 3.1, -0.13, 'rho');
 }
