@@ -19,7 +19,6 @@ ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 CASE = paper.outdoor()
 ROBOT, GOAL = wmr.Pose(0.0, 0.0, math.radians(15)), wmr.Pose(4.0, 5.7, math.radians(-25))
 ROBOT_RATES = wmr.polar_rate(1.0, wmr.polar_error(ROBOT, GOAL).alpha, 2.0, 0.0)  # 1 m away
-LAGS, AT_REST = np.array([1.0, 10.0, 100.0]), np.array([[0.1, 0.4, 0.2], [0.9, 0.8, 0.7]])
 
 
 # What the figures are given: computed once a process, and not at collection ---------------------
@@ -70,7 +69,6 @@ def score(*gains):
 WAY = wmr.Pose(np.linspace(-3.0, 0.0, 20), np.linspace(-2.0, 0.1, 20), np.linspace(1.0, 0.2, 20))
 STEPS = np.array([0.02, 0.1, 0.7, 1.0])
 MEMORY = np.array([0.0, 3.0, 1e9])  # s
-MANY = np.array([0.0, 3.0, 30.0, 300.0])  # s
 FOUND = {  # distance, m, and heading error, deg
     "10 Hz": (np.array([0.2, 0.5, 1.4]), np.array([80.0, 91.0, 12.0])),
     "1 Hz": (np.array([0.3, 0.6, 1.5]), np.array([70.0, 40.0, 20.0])),
@@ -125,9 +123,7 @@ CASES = {
     "root_locus": lambda: figures.root_locus(GAINS, "k_alpha", np.linspace(0.1, 20.0, 100)),
     "time_steps": time_steps,
     "inner_loops": lambda: figures.inner_loops({"one": wheel_loops(), "two": {"slow": drive()}}),
-    "at_rest": lambda: figures.at_rest(LAGS, {"east": AT_REST}, {"300 s": AT_REST - 1.0}),
     "memories": lambda: figures.memories(MEMORY, FOUND),
-    "designs": lambda: figures.designs(MANY, {"one": MANY / 100.0}, {"one": 60.0 - MANY / 10.0}),
     "verdicts": lambda: figures.verdicts(
         {"equations": {"holds": 21, "typo": 3}, "figures": {"holds": 7, "typo": 0}}
     ),
@@ -222,15 +218,10 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     "inner_loops": lambda: [
         f"one, slow: {degrees_left(wheel_loops()['slow'])}; one, at once: {degrees_left(drive())}"
     ],
-    "at_rest": lambda: [
-        "Over spans and lags of 1 to 100 s: east, Allan deviation from 0.10 m over 1 s to at most "
-        "0.40 m over 10 s, autocorrelation 0.7 after 100 s; 300 s, autocorrelation from -0.8 to"
-    ],
     "memories": lambda: [
         "from white to constant: 10 Hz, from 0.2 m and about 80 deg to 1.4 m and 10 deg, "
         "the heading worst, about 90 deg, at 3 s; 1 Hz, "
     ],
-    "designs": lambda: ["with 4 receivers: one, 0.0 to 3.0 m and 30.0 to 60.0 deg."],
     "verdicts": lambda: ["equations: 21 holds, 3 typo; figures: 7 holds."],
     "route": lambda: [
         "Path from (0.0, 0.0) m to (",
@@ -446,8 +437,6 @@ BAD = [
     ("cases has 0 entries", "inner_loops", ({},)),
     ("series has 0 entries, .* 1 to 4 are needed", "memories", (MEMORY, {})),
     ("mismatched lengths", "memories", (MEMORY, {"one": (np.ones(3), np.ones(2))})),
-    ("heading has 2 entries, .* 1 are needed", "designs", (MANY, {"a": MANY}, FOUND)),
-    ("memory's values has 5 entries", "designs", (np.arange(5.0), {"a": MANY}, {"a": MANY})),
     ("counts has 0 entries", "verdicts", ({},)),
     ("a Route is needed, not a Pose", "route", (WAY,)),
     ("a Score is needed, not a Gains", "challenge_paths", (GAINS,)),

@@ -190,7 +190,7 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused(emptied_page):
 @pytest.mark.parametrize(
     ("name", "handle", "key", "knob", "sign"),
     [
-        ("late", "set_off", "ArrowUp", "set_off", 0),
+        ("two_bars", "state", "ArrowRight", "alpha", 1),
     ],
 )
 def test_what_can_be_held_moves_the_figure(emptied_page, name, handle, key, knob, sign):

@@ -15,7 +15,7 @@ from test_live import NAMES
 import wmrlib as wmr
 from wmrbook import live
 from wmrbook.chapters import routes
-from wmrbook.live import noise, real_robot
+from wmrbook.live import real_robot
 
 ROLLING = {"method": "continuous", "dt": 0.02, "duration": 12.0, "arrival_radius": 0.0}
 TRIALS = 4  # places of the knobs, besides where they stand at first
@@ -103,23 +103,6 @@ def half_turn(values, results, data) -> None:
     ends, options = (pose([*start[:2], -heading]), pose(data["goal"])), {"method": "continuous"}
     mirrored = wmr.simulate(*ends, wmr.Gains(**data["gains"]), dt=0.05, **options)
     np.testing.assert_allclose(results["run"]["y"], -mirrored.y, atol=AGREES)
-
-
-def late(values, results, data) -> None:
-    for k, run in enumerate(results["runs"]):
-        delays = [0.0, 0.0]
-        delays[k] = values["delay"]
-        path, time = noise.late_drive(*delays, *np.radians([values["set_off"], values["face"]]))
-        assert run["time"] == (pytest.approx(time) if time < math.inf else None)
-        shown = min(len(path.x), 300)  # later a robot that swings for ever magnifies rounding
-        x, y, heading = np.transpose(run["poses"])
-        np.testing.assert_allclose(x[:shown], path.x[:shown], atol=AGREES)
-        np.testing.assert_allclose(y[:shown], path.y[:shown], atol=AGREES)
-        back, now = round(values["delay"] / noise.DT), run["now"]
-        then = max(now - back, 0)
-        believed = (x[then], y[then], heading[now]) if k == 0 else (x[now], y[now], heading[then])
-        if now < len(run["seen"]):
-            assert run["old"] == pytest.approx(believed)
 
 
 def rising(values, results, data) -> None:

@@ -20,6 +20,7 @@ from wmrbook.panel.kit import sources
 from wmrbook.stages.parts import off_heading
 from wmrlib import (
     GENTLE_GAINS,
+    Gains,
     GeoPoint,
     Pose,
     Receiver,
@@ -188,20 +189,23 @@ def _late() -> str:
     return f"After {len(run.t)} looks it stops {far:.1f} cm from its goal, {off:.0f}° off"
 
 
-def _noisy() -> str:
+def _noisy(gains=GENTLE_GAINS, radius=None, turn=None, **receiver) -> str:
     module = sys.modules["wmrbook.stages.noisy_fixes"]
-    noise, where = Receiver(sigma=np.full(module.DAYS, module.SIGMA)), (module.START, module.GOAL)
-    options = {"method": "arc", "dt": module.DT, "duration": module.SECONDS}
     ends = sweep(
-        *where,
-        GENTLE_GAINS,
-        receiver=noise,
+        module.START,
+        module.GOAL,
+        gains,
+        receiver=Receiver(sigma=np.full(module.DAYS, module.SIGMA), **receiver),
         seed=module.SEED,
-        arrival_radius=module.RADIUS,
-        **options,
+        arrival_radius=module.RADIUS if radius is None else radius,
+        last_turn=turn,
+        method="arc",
+        dt=module.DT,
+        duration=module.SECONDS,
     )
-    off = np.degrees(abs(ends.heading_error)).max()
-    return f"stops up to {100 * ends.distance.max():.0f} cm and {off:.0f}° off"
+    far, off = ends.distance.max(), np.degrees(abs(ends.heading_error)).max()
+    size = f"{far:.1f} m" if far >= 0.995 else f"{100 * far:.0f} cm"
+    return f"stops up to {size} and {off:.0f}° off"
 
 
 def _printed() -> str:
@@ -400,16 +404,28 @@ def test_a_stage_drives_with_the_wrong_sign_as_wmrlib_does(browser_page):
     assert f"stops after {run.t[-1]:.1f} s, {off_heading(run):.0f}° off its heading" in said
 
 
-@pytest.mark.parametrize("wheels", ["slow", "sticky", "least"])
-def test_a_stage_drives_on_its_wheels_as_wmrlib_does(browser_page, wheels):
-    module = sys.modules["wmrbook.stages.late_looks"]
-    start, goal, _, _ = paper.outdoor()
-    options = {"method": "arc", "dt": module.OFTEN, "duration": module.SECONDS}
-    run = simulate(start, goal, GENTLE_GAINS, wheels=module.WHEELS[wheels], **options)
-    mounted(browser_page, stages.late_looks(), width=620).set(dt=module.OFTEN, wheels=wheels)
-    ends = "stands still" if wheels == "sticky" else "stops"
-    where = f"{ends} {100 * run.rho[-1]:.2g} cm from its goal, {off_heading(run):.0f}° off"
-    assert where in _words(browser_page)
+def test_a_stage_of_noisy_fixes_stops_where_wmrlib_does(browser_page):
+    module = sys.modules["wmrbook.stages.noisy_fixes"]
+    early = Gains(*(module.EARLY[name] for name in ("k_rho", "k_alpha", "h")), GENTLE_GAINS.v_max)
+    ends = {
+        "lasting": _noisy(memory=module.MEMORIES["lasting"]),
+        "early": _noisy(early, module.EARLY["radius"]),
+        "turn": _noisy(turn=module.TURN),
+    }
+    for scene, truth in ends.items():
+        mounted(browser_page, stages.noisy_fixes(scene), width=620)
+        assert truth in _words(browser_page)
+    for late, field in (("position", "delay"), ("heading", "heading_delay")):
+        where, receiver = (
+            (module.START, module.GOAL, GENTLE_GAINS),
+            Receiver(**{field: module.LATE}),
+        )
+        options = {"method": "arc", "dt": module.DT, "duration": module.SECONDS}
+        end = sweep(*where, receiver=receiver, arrival_radius=module.RADIUS, **options)
+        mounted(browser_page, stages.noisy_fixes("late"), width=620).set(late=late, answer=-1)
+        off = np.degrees(abs(end.heading_error))
+        truth = f"{off:.0f}° off" if end.arrived else "has not stopped after a minute"
+        assert truth in _words(browser_page)
 
 
 def test_a_stage_splits_the_velocity_as_wmrlib_does(browser_page):

@@ -38,19 +38,6 @@ def allan_deviation(error, spans) -> np.ndarray:
     return np.stack(deviations, axis=-1)
 
 
-def autocorrelation(error, lags) -> np.ndarray:
-    """How alike errors are that lie so many samples apart: 1 at lag 0, and 0 for white noise.
-
-    It is taken about the log's own mean, so that in a log not much longer than the memory it
-    falls below 0, whatever the memory is.
-    """
-    error = real("error", error)
-    error = error - error.mean(axis=-1, keepdims=True)
-    n, power = error.shape[-1], np.mean(error**2, axis=-1)
-    shifted = [np.sum(error[..., : n - lag] * error[..., lag:], axis=-1) for lag in lags]
-    return np.stack(shifted, axis=-1) / (n * power[..., None])
-
-
 class Fit(NamedTuple):
     """A Gauss-Markov error fitted to a log: sigma and bias in m, memory in s, all about one axis.
 

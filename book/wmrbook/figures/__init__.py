@@ -27,7 +27,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         ],
         "design": ["root_locus"],
         "sampling": ["inner_loops", "time_steps"],
-        "noise": ["at_rest", "designs", "memories"],
+        "noise": ["memories"],
         "audit": ["verdicts"],
         "routes": ["challenge_paths", "route"],
         "other_laws": ["heading_powers", "last_turns"],

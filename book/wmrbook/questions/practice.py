@@ -65,7 +65,7 @@ def _park(goal: wmr.Pose, off_m: float) -> wmr.Pose:
     return pose
 
 
-@question(9, "The memory decides what is lost", "Two metres off, all the way")
+@question(9, "An error that lasts", "Two metres off, all the way")
 def constant_offset() -> tuple[str, list[Option], str]:
     end = _park(_GOAL, 2.0)
     computed = round(end.x), round(end.y), abs(end.heading) < math.radians(10.0)
@@ -83,7 +83,7 @@ def constant_offset() -> tuple[str, list[Option], str]:
     return ask, cases(computed, options), why
 
 
-@question(9, "Exercise 9.1: A compass that is off", "A compass that is off")
+@question(9, "Exercise 9.3: A compass that is off", "A compass that is off")
 def crooked_compass() -> tuple[str, list[Option], str]:
     gains, delta = wmr.Gains(0.2, 2.0, 2.0, 4.0), math.radians(4.0)
     turning = [wmr.control_law(1e-9, -delta, theta, gains)[1] for theta in (0.0, 1.0)]

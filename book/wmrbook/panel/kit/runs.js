@@ -91,12 +91,6 @@ export function timeNear(xs, ys, x, y, reach) {
   return k === null ? null : { time: k / (xs.length - 1) };
 }
 
-// The same of the longest of some drives, each a list of poses.
-export function timeAlong(ways, x, y, reach) {
-  const poses = ways.reduce((one, other) => (other.length > one.length ? other : one));
-  return timeNear(poses.map(([at]) => at), poses.map(([, at]) => at), x, y, reach);
-}
-
 // A chain of goals, sampled, each left behind within its own of the `radii`: columns as of a run,
 // and `leg`. As wmrlib's `drive_route`.
 export const alongRoute = remembered(({ start, goals, radii, gains }) => {
