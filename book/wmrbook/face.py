@@ -92,12 +92,19 @@ def css() -> str:
     fonts = "".join(f"  --{role}: {names};\n" for role, names in FONTS.items())
     # A page's script reads --role of what is touched, see reading.js.
     letters = "".join(
-        f'[data-c="{code}"] {{ fill: var(--{role}); --role: {role}; }}\n'
-        f'[data-lit="{role}"] :is([data-c="{code}"], .live-symbol[data-role="{role}"]) '
+        f"{shapes} {{ fill: var(--{role}); --role: {role}; }}\n"
+        f'[data-lit="{role}"] :is({shapes}, .live-symbol[data-role="{role}"]) '
         "{ filter: var(--lit); }\n"
-        for role, code in LETTERS.items()
+        for role, shapes in ((role, _shapes(role)) for role in LETTERS)
     )
     return "".join([*themes, f":root {{\n{fonts}}}\n", letters])
+
+
+def _shapes(role: str) -> str:
+    """The selector of a symbol in formulas; the h of e_h stands for a heading, not for the gain."""
+    letter = f'[data-c="{LETTERS[role]}"]'
+    index = ':is([data-mml-node="msub"], [data-mml-node="msubsup"]) > :last-child *'
+    return f"{letter}:not({index})" if role == "h" else letter
 
 
 def javascript() -> str:

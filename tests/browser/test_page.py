@@ -249,6 +249,23 @@ def test_a_symbol_that_is_touched_lights_up_and_no_other_and_has_a_halo_in_the_p
     assert settled_picture(page) != dark
 
 
+def test_an_index_h_is_not_in_the_colour_of_the_gain_h(browser_page):
+    roles = {
+        "h\\theta": ["h"],
+        "h_1^2": ["h"],
+        "k_h e_{h}^2": ["", ""],
+        "\\frac{k_h}{h}": ["", "h"],
+    }
+    formulas = "".join(f"<p>\\({formula}\\)</p>" for formula in roles)
+    browser_page.set_content(f"<style>{face.css()}</style>{formulas}")
+    browser_page.add_script_tag(path=ROOT / "book/node_modules/mathjax/es5/tex-svg.js")
+    browser_page.evaluate("window.MathJax.startup.promise.then(() => null)")
+    seen = """letter => [...document.querySelectorAll('p')].map(
+        it => [...it.querySelectorAll(`[data-c="${letter}"]`)].map(
+            shape => getComputedStyle(shape).getPropertyValue('--role').trim()))"""
+    assert browser_page.evaluate(seen, face.LETTERS["h"]) == list(roles.values())
+
+
 def test_pages_and_search_have_neither_the_guide_nor_solutions(site):
     assert not (site / "lecturers.html").exists()
     assert not leaks(site)

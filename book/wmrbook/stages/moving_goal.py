@@ -24,11 +24,10 @@ def moving_goal(scene: str = "whole") -> Stage:
             look="other",
         ),
         "goal": Scene(
-            f"The goal alone, which drives once round in {DURATION:.0f} seconds. Could a robot "
-            "drive like this?",
+            f"The goal drives once round in {DURATION:.0f} seconds, and the robot follows it. "
+            "Could a robot drive exactly as this goal does?",
             look="other",
             shows=("goal",),
-            empty=True,
         ),
         "speeds": Scene(
             "In the corner: the speed that the law asks for at each distance, and the goal's. "
@@ -49,10 +48,11 @@ def moving_goal(scene: str = "whole") -> Stage:
         ),
         "frame": Scene(
             "Seen from the robot, the goal is {ahead} and {aside}, and it faces {turned}. Drag "
-            "the robot.",
+            "the robot, or turn it.",
             look="other",
             shows=("frame",),
             still=True,
+            until=0.0,
         ),
         "speed": Scene(
             f"Now it also knows how fast the goal drives and turns. {STAYS}",

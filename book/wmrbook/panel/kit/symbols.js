@@ -9,9 +9,9 @@ const SHORT = { heading: 'h' }; // k_heading is k_h in formulas
 const NAMED = RegExp(`\\b((?:k|v)_(?:${Object.keys(SYMBOLS).join('|')}|max|x|y)|${
   Object.keys(SYMBOLS).join('|')})\\b`);
 
-/** The colour of a symbol such as k_alpha, or ''. @param {string} name */
+/** The colour of a symbol such as k_alpha, or ''. The h of k_h is no gain. @param {string} name */
 export function roleOf(name) {
-  const [stem, long] = name.split('_'), index = SHORT[long] || long;
+  const [stem, index] = name.split('_');
   return stem in COLOURS ? stem : index in COLOURS ? index : '';
 }
 

@@ -24,9 +24,8 @@ export default stage('moving_goal', {
     const { start, law } = values, { feedback, duration } = setup.data;
     const run = driven({ start, reference: 'circle', law, gains: gainsOf(values, setup), feedback,
       duration, dt: 0.1 });
-    const alone = { t: run.t, n: run.n, x: run.goalX, y: run.goalY, heading: run.goalHeading };
-    return { run, gap: summarise(run).residual, tracks: [
-      values.scene === 'goal' ? { ...alone, role: 'goal' } : { ...run, role: 'path' }] };
+    const share = values.scene === 'goal' ? 0.5 : 1; // the goal is looked at first
+    return { run, gap: summarise(run).residual, tracks: [{ ...run, role: 'path', share }] };
   },
   look({ start, scene }, { run }, { data: { radius } }) {
     if (scene === 'frame') {
