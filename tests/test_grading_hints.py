@@ -14,8 +14,8 @@ from logs import STANDING
 
 import wmrbook.audit
 import wmrlib as wmr
+from wmrbook.audit.published import Published
 from wmrbook.grading import Hint, _asking, _hints, lyapunov, routes, verdicts
-from wmrbook.published import Published
 from wmrlib import control_law
 
 ALLOWED = ("Pose", "polar_error")

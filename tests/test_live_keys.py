@@ -40,7 +40,6 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "seam sweep": lambda f: lambda *a, **o: f(*a, **o | {"hysteresis": 0.4}),
     "two_bars control_law": lambda f: lambda *a: (-f(*a)[0], f(*a)[1]),
     "window simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(v_max=4.0), **o),
-    "rising lyapunov_rate": lambda f: lambda *a, **o: -f(*a, **o),
     "silence rolled": lambda f: lambda v, timeout, brake: f(v, timeout, -brake),
     "corners headings_along": lambda f: lambda x, y: -f(x, y),
     "race control_law": lambda f: lambda *a, **o: (-f(*a, **o)[0], f(*a, **o)[1]),

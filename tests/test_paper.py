@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import wmrlib as wmr
-from wmrbook.published import PUBLISHED
+from wmrbook.audit.published import PUBLISHED
 
 
 def run(x_axis, gains=None, **options):

@@ -32,12 +32,15 @@ rho_rate, alpha_rate, theta_rate, V_rate, x_rate, y_rate = sp.symbols(
 V, V_r, V_l, right_wheel, left_wheel, r, c, epsilon, br, zeta_x, zeta_y = sp.symbols(
     "V V_r V_l w_R w_L r c epsilon br zeta_x zeta_y", real=True
 )
+rho_i, k_A = sp.symbols("rho_i k_A", positive=True)  # noqa: N816
+UNDEFINED = MappingProxyType({rho_i: rho, k_A: k_alpha})
+"""From a symbol that the paper never defines to the one that we read in its place."""
 _SINE, _COSINE = sp.sin(alpha), sp.cos(alpha)
 
 
 def _equations() -> dict[int, sp.Basic]:
     speed = v_max * (1 - sp.exp(-k_rho * rho))
-    twice = speed * _COSINE * _SINE / rho * _COSINE * _SINE / alpha * (alpha + h * theta)
+    twice = speed * _COSINE * _SINE / rho_i * _COSINE * _SINE / alpha * (alpha + h * theta)
     grows, falls = v * _SINE / rho * (h * theta + alpha), rho / L * (-speed * _COSINE**2)
     left_over = speed / rho * _COSINE * _SINE / alpha * h * theta
     half_dlat, half_dlong = sp.sin(dlat / 2), sp.sin(dlong / 2)
@@ -89,20 +92,28 @@ def _equations() -> dict[int, sp.Basic]:
         ),
         26: sp.Eq(
             V_rate,
-            sp.Abs(rho) / L * (-speed * _COSINE**2)
-            - k_alpha * alpha**2
-            - k_alpha * alpha
-            - left_over,
+            sp.Abs(rho) / L * (-speed * _COSINE**2) - k_A * alpha**2 - k_A * alpha - left_over,
         ),
     }
 
 
-EQUATIONS = MappingProxyType(_equations())
-"""From the paper's number to the equation as the paper prints it.
+PRINTED = MappingProxyType(_equations())
+"""From the paper's number to the equation with the symbols that the paper prints."""
+
+EQUATIONS = MappingProxyType(
+    {number: equation.subs(UNDEFINED, simultaneous=True) for number, equation in PRINTED.items()}
+)
+"""The same with defined symbols: rho_i in (24) and (25) is read as rho, k_A in (26) as k_alpha.
 
 They are sympy relations; A is alpha, 90 degrees are pi/2, and (6) and (10) are multiplied out.
 (10) contradicts (8), (23) does not follow from (21), (24) has cos A sin A twice, and (26) does not
 follow from (25).
+"""
+
+FIRST_PART = rho * (-v * _COSINE)
+"""The bracket that the paper prints without a number above (22), to be negative.
+
+The first part of (21) is divided by L.
 """
 
 SECOND_PART = alpha / L * (-omega) + v * _SINE / (rho * L) * (h * theta + alpha)

@@ -105,23 +105,6 @@ def half_turn(values, results, data) -> None:
     np.testing.assert_allclose(results["run"]["y"], -mirrored.y, atol=AGREES)
 
 
-def rising(values, results, data) -> None:
-    gains, (rho, L) = wmr.Gains(**data["gains"]), (values["rho"], values["L"])
-    here = np.radians([values["alpha"], values["theta"]])
-    rate = wmr.lyapunov_rate(rho, *here, gains, law="printed", L=L)
-    assert results["rate"] == pytest.approx(rate, rel=1e-9, abs=1e-12)
-    angles = np.radians((np.arange(73) + 0.5) / 73 * 360 - 180)
-    up = wmr.lyapunov_rate(rho, *np.meshgrid(angles, angles), gains, law="printed", L=L) > 0
-    assert results["share"] == pytest.approx(up.mean(), abs=1e-3)
-    origin = wmr.Pose(0.0, 0.0, 0.0)
-    start = wmr.pose_from_polar(wmr.PolarError(rho, *map(float, here)), origin)
-    options = {"method": "continuous", "dt": 0.06, "duration": 3.0, "arrival_radius": 0.0}
-    for law, V in zip(("printed", "corrected"), results["V"], strict=True):
-        run = wmr.simulate(start, origin, gains, law=law, **options)
-        ours = run.rho**2 / 2 / L + run.alpha**2 / 2 + gains.h * run.theta**2 / 2
-        np.testing.assert_allclose(V, ours, rtol=1e-6, atol=1e-7)
-
-
 def silence(values, results, data) -> None:
     far = real_robot.rolled(values["speed"], values["timeout"], values["brake"])
     assert results["far"] == pytest.approx(far, rel=1e-9)

@@ -54,11 +54,6 @@ def window(results):
     yield min(map(abs, lags["fan"])) < 1
 
 
-def rising(results):
-    up, down, again = (result["rate"] for result in results)
-    return up > 0.0, down < 0.0, again > 0.0
-
-
 def corners(results):
     passed, stopped, sharp, hardly = (
         (result["run"]["t"][-1], result["run"]["peakOmega"]) for result in results

@@ -22,6 +22,7 @@ from wmrlib import (
     GENTLE_GAINS,
     Gains,
     GeoPoint,
+    PolarError,
     Pose,
     Receiver,
     advance,
@@ -34,6 +35,7 @@ from wmrlib import (
     paper,
     polar_error,
     polar_rate,
+    pose_from_polar,
     residual,
     simulate,
     sweep,
@@ -312,6 +314,35 @@ def test_a_stage_says_what_wmrlib_computes(browser_page):
         said = said.replace("\N{NO-BREAK SPACE}", " ")
         assert re.search(truth(), said), f"{name}: {said}, not {truth()}"
         assert not panel.troubled()
+
+
+def _refereed() -> dict[str, tuple[str, ...]]:
+    """Return what the scenes of chapter 10 must say, by wmrlib."""
+    _, goal, gains, _ = paper.outdoor()
+    turned = math.degrees(math.atan2(6 * math.sin(math.pi / 4), 10 - 6 * math.cos(math.pi / 4)))
+    pose = pose_from_polar(PolarError(10.0, -math.pi / 4, 0.0), goal)
+    alpha = math.degrees(polar_error(advance(pose, 0.5, 0.5, 3.0), goal).alpha)
+    near = pose_from_polar(PolarError(0.35, math.pi / 4, 0.0), goal)
+    options = {"method": "continuous", "dt": 0.02, "duration": 2.0, "arrival_radius": 0.0}
+    V = simulate(near, goal, gains, law="printed", **options).V
+    gaps = [
+        residual(track(paper.circle, paper.CIRCLE_START, paper.CIRCLE_GAINS, law=law))
+        for law in ("corrected", "printed")
+    ]
+    return {
+        "sight": (f"by {turned:.0f}°",),
+        "inequality": (f"\N{MINUS SIGN}{-alpha:.0f}°",),
+        "rises": (f"{(V / V[0]).max():.1f} times",),
+        "circle": tuple(f"{100 * gap:.2g}" for gap in gaps),
+    }
+
+
+def test_a_referees_scenes_say_what_wmrlib_computes(browser_page):
+    for scene, truths in _refereed().items():
+        mounted(browser_page, stages.as_printed(scene), width=620)
+        said = browser_page.locator(".stage-words[data-on=true]").text_content()
+        for truth in truths:
+            assert truth in said.replace("\N{NO-BREAK SPACE}", " "), scene
 
 
 @pytest.mark.parametrize(

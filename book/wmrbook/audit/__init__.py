@@ -13,7 +13,10 @@ of them, and is not decided if they disagree.
 from __future__ import annotations
 
 from wmrbook.audit import claims, equations, proof
+from wmrbook.audit.claims import STEPS
+from wmrbook.audit.equations import polar_rates
 from wmrbook.audit.proof import near_goal, slope, steering
+from wmrbook.audit.published import PUBLISHED
 from wmrbook.audit.row import THRESHOLDS, Row, Verdict, decide, equivalent, fits
 from wmrbook.audit.slips import one_slip
 from wmrbook.audit.table import SOURCE, Place, Table, missing, places, tally
@@ -21,7 +24,9 @@ from wmrlib.checks import choice
 
 __all__ = [
     "GROUPS",
+    "PUBLISHED",
     "SOURCE",
+    "STEPS",
     "THRESHOLDS",
     "Place",
     "Table",
@@ -33,6 +38,7 @@ __all__ = [
     "near_goal",
     "one_slip",
     "places",
+    "polar_rates",
     "rows",
     "slope",
     "steering",
@@ -51,8 +57,8 @@ GROUPS = tuple(_PARTS)
 def rows(group: str | None = None) -> list[Row]:
     """The rows of one group of GROUPS, or of all, computed in some seconds.
 
-    Equations (1) to (26) and a bracket without a number, the numbers of `PUBLISHED` that can be
-    checked, and statements.
+    Equations (1) to (26), two brackets without a number and two undefined symbols, the numbers of
+    `PUBLISHED` that can be checked, and statements.
     Raises ValueError for an unknown group.
     """
     if group is not None:

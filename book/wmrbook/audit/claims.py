@@ -12,20 +12,23 @@ from itertools import product
 
 import numpy as np
 
+from wmrbook.audit.equations import polar_rates
 from wmrbook.audit.proof import CLOSED, law_row, rising, slope, steering
-from wmrbook.audit.row import THRESHOLDS, Row, Verdict, decide, equivalent, fits, printed
+from wmrbook.audit.published import PUBLISHED
+from wmrbook.audit.row import THRESHOLDS, Row, Verdict, decide, equivalent, fits, latex, printed
 from wmrbook.ellipsoid import FLATTENING, SEMI_MAJOR_M, sphere_error
-from wmrbook.published import PUBLISHED
 from wmrlib import paper
 from wmrlib.body import Wheels
 from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, haversine_distance, initial_bearing
 from wmrlib.metrics import arrival, residual
 from wmrlib.runs import Trajectory
 from wmrlib.simulation import simulate, track
+from wmrlib.symbolic import alpha, rho
 from wmrlib.tuning import longest_step, modes
 
 AXES = ("east", "north")
 _METHODS = ("polar_euler", "euler", "arc", "continuous")
+STEPS = ("continuous", "arc", "euler")  # ways of stepping in the plane, at the printed 0.1 s
 _BLOCK_DIAGRAM = "Block diagram of the mobile robot controller."
 CAPTIONS = {
     1: "Coordinate System Mobile Robot.",
@@ -41,18 +44,24 @@ CAPTIONS = {
 
 
 @cache
-def outdoor_run(x_axis: str, radius: float, law: str = "corrected") -> Trajectory:
-    """The outdoor case in continuous time until `radius` before the goal, x "east" or "north"."""
+def outdoor_run(
+    x_axis: str, radius: float, law: str = "corrected", method: str = "continuous"
+) -> Trajectory:
+    """The outdoor case until `radius` before the goal, x "east" or "north"."""
     case = paper.outdoor(x_axis)
-    options = {"law": law, "method": "continuous", "arrival_radius": radius, "dt": 0.01}
+    dt = 0.01 if method == "continuous" else PUBLISHED["time_step"].value
+    options = {"law": law, "method": method, "arrival_radius": radius, "dt": dt}
     return simulate(case.start, case.goal, case.gains, **options)
 
 
 @cache
-def circle_run(law: str = "corrected", wheels=None, **changed: float) -> Trajectory:
-    """The circle with the paper's gains but for those that are changed."""
+def circle_run(
+    law: str = "corrected", wheels=None, method: str = "continuous", **changed: float
+) -> Trajectory:
+    """The circle with the paper's gains but for those that are changed; with wheels, in arcs."""
     gains = paper.CIRCLE_GAINS._replace(**changed)
     options = {"law": law, "wheels": wheels, "duration": paper.CIRCLE_PERIOD}
+    options["method"] = "arc" if wheels else method
     return track(paper.circle, paper.CIRCLE_START, gains, **options)
 
 
@@ -76,13 +85,13 @@ def _computed(key: str, note: str, readings: dict[str, float]) -> Row:
     printed = PUBLISHED[key]
     verdict = decide(lambda cut: any(fits(it, printed, cut) for it in readings.values()), "cut")
     if verdict is Verdict.OPEN:
-        why = "it depends on how much a cut may lose"
+        why = "It depends on how much a cut may lose."
     elif verdict is Verdict.HOLDS:
         by = [name for name, value in readings.items() if fits(value, printed)]
-        alone = f" with {by[0]} only" if len(by) < len(readings) else ""
-        why = f"ours has the printed digits{alone}"
+        alone = f", with {by[0]} only" if len(by) < len(readings) else ""
+        why = f"Ours has the printed digits{alone}."
     else:
-        why = "no consistent reading gives the printed digits"
+        why = "No consistent reading gives the printed digits."
     return _number(key, verdict, note.format(*readings.values()), why)
 
 
@@ -107,7 +116,9 @@ def _earth() -> list[Row]:
         "cut",
         over=[(name,) for name in measures],
     )
-    why = "by which error is meant" if meant is Verdict.OPEN else "whichever is meant"
+    why = "It depends on which error is meant."
+    if meant is not Verdict.OPEN:
+        why = "The verdict is the same, whichever error is meant."
     bearing = math.degrees(initial_bearing(start, goal))
     return [
         _computed("earth_radius", mean, {"": SEMI_MAJOR_M * (3.0 - FLATTENING) / 3e3}),
@@ -122,11 +133,15 @@ def _circle() -> list[Row]:
     key, choices = "circle_residual", [factor * THRESHOLDS["v_max"] for factor in (0.5, 1.0, 2.0)]
     behind = ", ".join(f"{residual(circle_run(v_max=v)):.3f} m with {v:g} m/s" for v in choices)
     verdict = decide(
-        lambda v, cut: fits(residual(circle_run(v_max=v)), PUBLISHED[key], cut), "v_max", "cut"
+        lambda by, v, cut: fits(residual(circle_run(method=by, v_max=v)), PUBLISHED[key], cut),
+        *("v_max", "cut"),
+        over=[(by,) for by in STEPS],
     )
     so = verdict is not Verdict.OPEN
-    text = f"For the limits $v_{{\\max}}$: {behind}."
-    why = "so with each limit" if so else "the circle's speed limit is not given"
+    text = f"In continuous time it is {behind} as the limit $v_{{\\max}}$."
+    why = "It depends on the circle's speed limit, which the paper does not give."
+    if so:
+        why = "It is so with each limit."
     tangent = math.degrees(math.atan2(y, x))
     agrees = abs(tangent - math.degrees(PUBLISHED["circle_reference_heading"].value)) < 1e-4
     return [
@@ -134,7 +149,7 @@ def _circle() -> list[Row]:
             "circle_reference_heading",
             Verdict.HOLDS if agrees else Verdict.WRONG,
             f"The reference sets out at {tangent:.2f} deg from the x axis.",
-            f"{'' if agrees else 'not '}along the path's tangent",
+            f"It is {'' if agrees else 'not '}the direction of the path's tangent.",
         ),
         _number(key, verdict, text, why),
     ]
@@ -189,11 +204,16 @@ def _loops() -> list[Row]:
     texts = {"time_step": step.format(*borders.values())}
     texts["inner_loop"] = f"The slowest pole with wheels {ratio:g} times the main rate: {wheels}."
     whys = {
-        "time_step": "it depends on how the authors stepped, which is not given",
-        "inner_loop": "it depends on which rate the main loop's is",
+        "time_step": "It depends on how the authors stepped, which the paper does not say.",
+        "inner_loop": "It depends on which rate is the main loop's.",
     }
     return [
-        _number(key, verdict, texts[key], whys[key] if verdict is Verdict.OPEN else "in each case")
+        _number(
+            key,
+            verdict,
+            texts[key],
+            whys[key] if verdict is Verdict.OPEN else "It is so in each case.",
+        )
         for key, verdict in verdicts.items()
     ]
 
@@ -203,7 +223,16 @@ def _loops() -> list[Row]:
 
 def statements() -> list[Row]:
     """A row for each statement, those about figures included."""
-    return [_captions(), _stable(), _better(), _still(), _pose(), _figure_5()]
+    return [
+        _captions(),
+        _reference(),
+        _stable(),
+        _tracking(),
+        _better(),
+        _still(),
+        _pose(),
+        _figure_5(),
+    ]
 
 
 def _claim(name: str, title: str, says: str, holds: str, verdict: Verdict, *whys: str) -> Row:
@@ -219,8 +248,30 @@ def _captions() -> Row:
     verdict = Verdict.TYPO if again else Verdict.HOLDS
     listed = ", ".join(map(str, again)) or "none"
     text = f"The caption of another figure is below Figs. {listed}."
-    whys = "each has its own", "a slip of print or conversion: the text names what these show"
+    whys = (
+        "Each figure has its own caption.",
+        "One caption was copied, in print or in conversion: the text names what they show.",
+    )
     return _claim("captions", "Captions", f'Fig. 3: "{CAPTIONS[3]}"', text, verdict, *whys)
+
+
+def _reference() -> Row:
+    """Whose theta (14) computes: that of the equation to which the paper points, or of another."""
+    sight = polar_rates()[2]
+    rates = {"(6)": printed(6)[2], "(8)": printed(8), "(10)": printed(10)[2]}
+    meant = [name for name, rate in rates.items() if equivalent(rate, sight)]
+    verdict = Verdict.HOLDS if "(6)" in meant else Verdict.TYPO if meant else Verdict.WRONG
+    text = f"In (6) $\\theta$ is the heading, with the rate ${latex(rates['(6)'])}$. "
+    text += f"In (14) it is the line of sight, with the rate ${latex(sight)}$."
+    whys = (
+        "(6) is about the same angle.",
+        f"One number is wrong: {' and '.join(meant)} has the angle that (14) gives."
+        if meant
+        else "No equation has the angle that (14) gives.",
+    )
+    says = "Recalling Eq. (6) to find $\\theta$ from the bearing (above (14))."
+    row = _claim("reference", "A reference", says, text, verdict, *whys)
+    return row
 
 
 def _stable() -> Row:
@@ -231,10 +282,32 @@ def _stable() -> Row:
     text = "With (24) as printed $\\dot V$ rises somewhere, for all gains. " if rises else ""
     text += "At $\\rho = \\alpha = 0$ $\\dot V = 0$ under any law: "
     text += "LaSalle's theorem is needed too (chapter 4)."
-    slip = "true of (24) without its slip, by LaSalle's theorem, not of (24) as printed"
-    whys = "with (24) as printed", slip if verdict is Verdict.TYPO else "the law does not stabilise"
-    says = "The globally asymptotic stability has been proved."
+    slip = "For a goal at rest it is true of (24) without its slip, and not of (24) as printed."
+    wrong = slip if verdict is Verdict.TYPO else "The law does not stabilise."
+    whys = "It is true of (24) as printed, for a goal at rest.", wrong
+    says = "The globally asymptotic stability of the controller had been proved (section 5)."
     return _claim("stable", "Stability", says, text, verdict, *whys)
+
+
+def _tracking() -> Row:
+    """The same claim for the first case, whose goal moves: whether an error of zero can stay."""
+    slow = {rho: 0, alpha: 0}
+    commanded, driven = float(printed(22).subs(slow)), paper.CIRCLE_SPEED
+    keeps_up = math.isclose(commanded, driven, abs_tol=1e-9)
+    verdict = _stable().verdict if keeps_up else Verdict.WRONG
+    text = (
+        "(7) to (9), and with them $\\dot V$, belong to a goal at rest. The circle's goal moves at "
+    )
+    text += f"{driven:.2f} m/s, and at zero distance (22) commands {commanded:g} m/s. "
+    text += f"With 4 m/s the error settles at {residual(circle_run()):.3f} m."
+    whys = (
+        "A goal that stands still is the case that was proved.",
+        "Without an error the robot stands still while the goal drives on, for any gains.",
+    )
+    says = (
+        "The stability of the tracking controller is proved (abstract), where it tracks a circle."
+    )
+    return _claim("tracking", "Tracking", says, text, verdict, *whys)
 
 
 def _better() -> Row:
@@ -255,7 +328,11 @@ def _better() -> Row:
     text = f"Rms distance {ours:.3f} m; our two stand-ins, Aicardi's law: {listed}. "
     text += "The rival's law and gains are not printed in this paper."
     verdict = decide(lambda k: ours < rivals[k], over=[(k,) for k in rivals])
-    whys = "than both stand-ins", "not than our stand-ins", "our stand-ins for the rival disagree"
+    whys = (
+        "It is better than both of our stand-ins for the rival.",
+        "It is better than neither of our stand-ins for the rival.",
+        "The rival's law is not printed, and our two stand-ins for it disagree.",
+    )
     says = "Better than the controller of Cornejo et al. (Figs. 6 and 7)."
     return _claim("cornejo", "Comparison", says, text, verdict, *whys)
 
@@ -266,25 +343,33 @@ def _still() -> Row:
     Which law the authors ran is not known: (24) as printed or the one that their proof needs.
     """
 
-    def turns(axis: str, law: str, radius: float, end: float) -> tuple[float, float]:
-        run = outdoor_run(axis, radius, law)
+    def turns(axis, law, radius, end, by="continuous") -> tuple[float, float]:
+        run = outdoor_run(axis, radius, law, by)
         return abs(run.omega[run.rho < end]).max(), abs(run.omega[run.rho >= end]).max()
 
     cases = list(product(AXES, ("corrected", "printed")))
-    verdict = decide(lambda *case: bool(np.less(*turns(*case))), "arrival", "end", over=cases)
+    verdict = decide(
+        lambda by, *case: bool(np.less(*turns(*case, by))),
+        *("arrival", "end"),
+        over=[(by, *case) for by in STEPS for case in cases],
+    )
     limits = THRESHOLDS["arrival"], THRESHOLDS["end"]
     listed = "; ".join(
         f"{law}, x {axis}: {turns(axis, law, *limits)[0]:.1f} rad/s" for axis, law in cases
     )
-    whys = "less than before", "more than before", "it depends on the law that the authors ran"
+    whys = (
+        "At the end it turns less than before.",
+        "At the end it turns more than before.",
+        "It depends on the law that the authors ran.",
+    )
     says = "It converges to zero because of the linear tracking path (Fig. 10)."
     text = f"The largest $\\omega$ in the last {limits[1]:g} m: {listed}."
     return _claim("omega", "Turning rate", says, text, verdict, *whys)
 
 
 def _pose() -> Row:
-    def off(axis: str, radius: float) -> float:
-        return abs(float(arrival(outdoor_run(axis, radius)).heading_error))
+    def off(axis: str, radius: float, by: str = "continuous") -> float:
+        return abs(float(arrival(outdoor_run(axis, radius, method=by)).heading_error))
 
     radii = [factor * THRESHOLDS["arrival"] for factor in (0.5, 1.0, 2.0)]
     listed = "; ".join(
@@ -293,14 +378,18 @@ def _pose() -> Row:
     )
     stops = ", ".join(f"{100 * radius:g}" for radius in radii)
     verdict = decide(
-        lambda axis, radius, most: off(axis, radius) < most,
+        lambda axis, by, radius, most: off(axis, radius, by) < most,
         *("arrival", "parked"),
-        over=[(axis,) for axis in AXES],
+        over=[*product(AXES, STEPS)],
     )
     text = f"Degrees off on stopping {stops} cm short of the goal: {listed}."
-    whys = "parked, wherever it stops", "not parked, wherever it stops"
+    whys = (
+        "It is parked, wherever it stops.",
+        "It is not parked, wherever it stops.",
+        "It depends on where one stops the robot, and on how one steps.",
+    )
     says = "The robot moves from pose to pose, its error to zero (Fig. 8)."
-    return _claim("pose", "Pose to pose", says, text, verdict, *whys, "by where one stops")
+    return _claim("pose", "Pose to pose", says, text, verdict, *whys)
 
 
 def _figure_5() -> Row:
@@ -312,6 +401,10 @@ def _figure_5() -> Row:
     ]
     verdict = Verdict.TYPO if reached == [Verdict.WRONG, Verdict.HOLDS] else reached[0]
     text = f"The run of Fig. 5 reaches {circle:.2f} m/s, that of Fig. 9 {outdoor:.2f} m/s."
-    whys = "so it is", "Fig. 9 is meant", "by how near counts as reached"
+    whys = (
+        "Fig. 5 reaches the limit.",
+        "One number is wrong: Fig. 9 is the one that reaches the limit.",
+        "It depends on how near counts as reached.",
+    )
     says = "Limited to 4 m/s, as indicated in Fig. 5."
     return _claim("limit", "The limit", says, text, verdict, *whys)

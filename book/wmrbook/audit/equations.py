@@ -7,9 +7,9 @@ from functools import cache
 import sympy as sp
 
 from wmrbook import equations as symbols
+from wmrbook.audit.published import PUBLISHED
 from wmrbook.audit.row import Row, Verdict, equivalent, finding, fits, printed
-from wmrbook.audit.slips import equation_row
-from wmrbook.published import PUBLISHED
+from wmrbook.audit.slips import SAME, equation_row
 from wmrlib import paper, symbolic
 from wmrlib.geodesy import haversine_distance, local_position
 from wmrlib.symbolic import L, alpha, b, h, lat1, lat2, omega, rho, theta, v
@@ -160,7 +160,7 @@ def earth_rows() -> list[Row]:
     return [
         equation_row(11, length, distance, "The length of an arc of the angle $c$."),
         equation_row(12, angle, distance, half_chord),
-        _row(13, as_13, chord, haversine, distance, "the difference is 0"),
+        _row(13, as_13, chord, haversine, distance, SAME),
         _row(14, as_14, compass, sp.pi / 2 - br, far_north),
         _row(15, as_15, ratio, sp.atan2(east, north), far_north),
         equation_row(16, sp.simplify(to_east.dot(there)), far_north, along_east),
@@ -168,7 +168,7 @@ def earth_rows() -> list[Row]:
     ]
 
 
-def _row(number, agrees, note, derived, wanted_by, why="both differences are 0") -> Row:
+def _row(number, agrees, note, derived, wanted_by, why="Its sine and its cosine are ours.") -> Row:
     """The row of an equation that holds by a property of the derived form."""
     if agrees:
         return finding(number, Verdict.HOLDS, note, why)

@@ -9,8 +9,18 @@ import sympy as sp
 
 from wmrbook import equations
 from wmrbook.audit.equations import polar_rates
-from wmrbook.audit.row import Row, Verdict, equation, equivalent, finding, formula, latex, printed
-from wmrbook.audit.slips import equation_row, judge
+from wmrbook.audit.row import (
+    Row,
+    Verdict,
+    as_printed,
+    equation,
+    equivalent,
+    finding,
+    formula,
+    latex,
+    printed,
+)
+from wmrbook.audit.slips import SAME, equation_row, judge
 from wmrlib.symbolic import L, alpha, h, k_alpha, k_rho, omega, rho, theta, v, v_max
 
 _COSINE, _SINE, _STATE = sp.cos(alpha), sp.sin(alpha), (rho, alpha, theta)
@@ -65,7 +75,7 @@ def rising(rate: sp.Expr) -> sp.Expr | None:
 
 
 def energy_rows() -> list[Row]:
-    """(18) to (23), and the bracket below (22)."""
+    """(18) to (23), and the brackets above and below (22)."""
     dots = equations.rho_rate, equations.alpha_rate, equations.theta_rate
     chain = sum(printed(18).diff(symbol) * dot for symbol, dot in zip(_STATE, dots, strict=True))
     along = chain.subs(dict(zip(dots, polar_rates(), strict=True)))
@@ -76,6 +86,7 @@ def energy_rows() -> list[Row]:
         equation_row(19, chain, {"(20)": in_20}, f"The chain rule on (18). {_WISH}"),
         equation_row(20, along, {"(21)": in_21}, f"{sign} {_WISH}"),
         equation_row(21, along, {"(20)": in_20}, f"(20) with its terms collected. {_WISH}"),
+        _first_part_row(),
         _speed_row(),
         _second_part_row(),
         _inequality_row(),
@@ -93,8 +104,13 @@ def _bowl_row() -> Row:
     )
     if is_bowl:
         bowl = "Zero at the goal, positive elsewhere: a sum of squares with positive weights."
-        return finding(18, Verdict.HOLDS, bowl, "all second derivatives' eigenvalues are positive")
-    why = "an eigenvalue of the second derivatives is not positive"
+        return finding(
+            18,
+            Verdict.HOLDS,
+            bowl,
+            "Each eigenvalue of its second derivatives is positive, so it is a bowl.",
+        )
+    why = "An eigenvalue of its second derivatives is not positive."
     return finding(18, Verdict.WRONG, "Not positive definite.", why)
 
 
@@ -108,10 +124,20 @@ def _speed_row() -> Row:
             "The first bracket of (21) is then never positive, "
             "and the speed never above $v_{\\max}$."
         )
-        why = f"${latex(push)}$ is 0 at 0 and grows to $v_{{\\max}}$"
+        why = f"${latex(push)}$ is 0 at the goal and grows to $v_{{\\max}}$ far away."
         return finding(22, Verdict.HOLDS, text, why)
-    why = "the factor of $-\\rho\\cos^2\\alpha/L$ is not positive"
+    why = "The factor of $-\\rho\\cos^2\\alpha/L$ is not positive."
     return finding(22, Verdict.WRONG, "The first bracket of (21) can be positive.", why)
+
+
+def _first_part_row() -> Row:
+    """The first part of V' as it is printed once more, without a number, above (22)."""
+    part = rho / L * polar_rates()[0]
+    needed = {f"({n})": equivalent(printed(n).coeff(1 / L), L * part) for n in (20, 21)}
+    verdict, why = judge(equations.FIRST_PART, part, needed)
+    says = f"The first part, to be negative: {formula(equations.FIRST_PART)}"
+    holds = f"By (7) and (18) it is {formula(part)}. As $L > 0$, its sign is the same."
+    return Row("first-part", "Above (22)", says, holds, verdict, why)
 
 
 def _second_part_row() -> Row:
@@ -137,31 +163,60 @@ def _inequality_row() -> Row:
     bracket = alpha * (-omega) + printed(22) * _SINE / rho * (h * theta + alpha)
     if equivalent(given - proved, bracket):
         text = "It says what the bracket says."
-        return finding(23, Verdict.HOLDS, text, "the difference is 0")
+        return finding(23, Verdict.HOLDS, text, SAME)
     push = bracket.diff(omega)
     text = (
         f"The bracket's slope in $\\omega$ is ${latex(push)}$. With the goal on the right, "
         "$\\alpha < 0$, a larger $\\omega$ obeys (23) all the more and makes the bracket larger, "
         "without bound, whatever the gains."
     )
-    why = "a counterexample: (23) does not follow from (21)"
+    why = "There is a counterexample: an $\\omega$ that obeys (23) and lets $V$ rise."
     return finding(23, Verdict.WRONG, text, why)
 
 
 def law_rows() -> list[Row]:
-    """(24) to (26)."""
+    """(24) to (26), and the symbols in them that the paper does not define."""
     law = law_row()
     substituted = _substitution_row(law.verdict)
-    return [law, substituted, _last_row(substituted.verdict)]
+    # (21) has the same quotient over rho, and (24) the same gain, under defined names
+    denominator = equivalent(
+        printed(21).coeff(L, 0).coeff(1 / rho), v * _SINE * (h * theta + alpha)
+    )
+    gain = printed(24).has(k_alpha)
+    return [
+        _symbol_row("rho-i", equations.rho_i, 24, {"(21)": denominator}),
+        law,
+        substituted,
+        _symbol_row("k-A", equations.k_A, 26, {"(24)": gain, "(25)": printed(25).has(k_alpha)}),
+        _last_row(substituted.verdict),
+    ]
+
+
+def _symbol_row(item: str, symbol: sp.Symbol, number: int, needed: dict[str, bool]) -> Row:
+    """A symbol that an equation uses and the paper never defines."""
+    meant, given = equations.UNDEFINED[symbol], as_printed(number)
+    verdict, why = judge(given, given.subs(symbol, meant), needed)
+    using = [f"({n})" for n in (24, 25, 26) if as_printed(n).has(symbol)]
+    title, says = (
+        f"${latex(symbol)}$",
+        f"Used in {' and '.join(using) or 'no equation'}, undefined.",
+    )
+    holds = f"We read it as ${latex(meant)}$. The rest of ({number}) is judged in its own row."
+    return Row(item, title, says, holds, verdict, why)
 
 
 def law_row() -> Row:
     """(24). What needs its derived form is (26): it prints the two terms which that form leaves."""
     law, terms = steering(), (set(sp.expand(side).args) for side in (CLOSED, _last()))
     left, there = terms
-    needed = {'"$\\le 0$" and $-k_\\alpha\\alpha^2$ in (26)': left <= there}
+    needed = {"(26)": left <= there}
     needed = {name: so and equivalent(slope(law), CLOSED) for name, so in needed.items()}
-    return equation_row(24, law, needed, "With it $\\dot V$ is never positive.")
+    return equation_row(
+        24,
+        law,
+        needed,
+        "With it $\\dot V$ is never positive, and (26) prints both terms that it leaves.",
+    )
 
 
 def _last() -> sp.Expr:
@@ -181,13 +236,15 @@ def _not_below(rate: sp.Expr) -> str:
 def _substitution_row(law: Verdict) -> Row:
     ours, theirs = slope(steering()), slope(printed(24))
     if equivalent(printed(25), ours):
-        return finding(25, Verdict.HOLDS, "(22) and (24) put into (21).", "the difference is 0")
+        return finding(25, Verdict.HOLDS, "(22) and (24) put into (21).", SAME)
     text = f"With the factor of (24) removed it is ${latex(CLOSED)}$, never positive."
     text += _not_below(printed(25))
     if equivalent(printed(25), theirs) and equivalent(ours, CLOSED):
-        why = f"it follows from (21), (22) and (24) as printed, and repeats {_SLIPS[law]} of (24)"
+        why = (
+            f"It follows from (21), (22) and (24) as printed, so it repeats {_SLIPS[law]} of (24)."
+        )
         return finding(25, law, text, why)
-    why = "it is what neither (24) as printed nor the derived law gives"
+    why = "Neither (24) as printed nor the derived law gives it."
     return finding(25, Verdict.WRONG, text, why)
 
 
@@ -195,14 +252,14 @@ def _last_row(before: Verdict) -> Row:
     last = _last()
     if equivalent(last, CLOSED):
         left = "What the derived law leaves of (25)."
-        return finding(26, Verdict.HOLDS, left, "the difference is 0")
+        return finding(26, Verdict.HOLDS, left, SAME)
     text = f"The derived law leaves ${latex(CLOSED)}$.{_not_below(last)}"
     if equivalent(last, printed(25)):
-        return finding(26, before, text, f"it follows from (25), and repeats {_SLIPS[before]}")
-    why = "the difference from (25) is not 0, with (24) as printed and with the derived law"
+        return finding(26, before, text, f"It follows from (25), and repeats {_SLIPS[before]}.")
+    why = "It does not follow from (25), neither with (24) as printed nor with the derived law."
     return finding(26, Verdict.WRONG, text, why)
 
 
 def rows() -> list[Row]:
-    """The ten rows, in order."""
+    """The 13 rows, in order."""
     return [*energy_rows(), *law_rows()]

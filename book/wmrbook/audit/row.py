@@ -14,8 +14,8 @@ import numpy as np
 import sympy as sp
 
 from wmrbook import equations
-from wmrbook.equations import EQUATIONS
-from wmrbook.published import Published
+from wmrbook.audit.published import Published
+from wmrbook.equations import EQUATIONS, PRINTED
 from wmrlib import symbolic
 
 
@@ -56,8 +56,8 @@ class Row(NamedTuple):
     """One thing that the paper says.
 
     item: the tag of the cells that show it, without "audit:"; says: what the paper says; holds:
-    what was found, with its numbers; why: the outcome of the comparison from which the verdict
-    follows. Texts are Markdown with $...$ for mathematics.
+    what was found, with its numbers; why: a sentence, the reason for the verdict.
+    Texts are Markdown with $...$ for mathematics.
     """
 
     item: str
@@ -124,12 +124,17 @@ def fits(value: float, printed: Published, cut: float = THRESHOLDS["cut"]) -> bo
 
 
 def equation(number: int) -> sp.Basic:
-    """An equation as the paper prints it."""
+    """An equation as the paper prints it, its undefined symbols read as defined ones."""
     return EQUATIONS[number]
 
 
+def as_printed(number: int) -> sp.Basic:
+    """The right side of an equation with all symbols that the paper prints."""
+    return PRINTED[number].rhs
+
+
 def printed(number: int) -> sp.Basic:
-    """The right side of an equation as the paper prints it."""
+    """The right side of `equation`."""
     return equation(number).rhs
 
 

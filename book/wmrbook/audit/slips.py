@@ -13,6 +13,8 @@ import sympy as sp
 
 from wmrbook.audit.row import Row, Verdict, equation, equivalent, finding, formula, latex, printed
 
+SAME = "Our derivation leads to the same expression."
+
 
 def equation_row(
     number: int, derived: sp.Basic, wanted_by: Mapping[str, bool], note: str = ""
@@ -20,7 +22,7 @@ def equation_row(
     """The row of an equation whose right side is compared with a derivation."""
     verdict, why = judge(printed(number), derived, wanted_by)
     if verdict is Verdict.HOLDS:
-        note = note or "The derivation gives the same."
+        note = note or "It is derived without the paper."
     else:
         note = f"It should be {formula(sp.Eq(equation(number).lhs, derived))}. {note}".strip()
     return finding(number, verdict, note, why)
@@ -34,15 +36,16 @@ def judge(right: sp.Basic, derived: sp.Basic, wanted_by: Mapping[str, bool]) -> 
     derived form, and wrong otherwise.
     """
     if equivalent(right, derived):
-        return Verdict.HOLDS, "the difference is 0"
+        return Verdict.HOLDS, SAME
     needed = [name for name, so in wanted_by.items() if so]
     if not needed:
-        return Verdict.WRONG, "the difference is not 0, and nothing printed needs the derived form"
+        return Verdict.WRONG, "It differs, and nothing else that is printed needs the derived form."
     slip = one_slip(sp.ImmutableMatrix([right]), sp.ImmutableMatrix([derived]))
     if slip is None:
-        return Verdict.WRONG, "the difference is not 0, and no single slip explains it"
+        return Verdict.WRONG, "It differs, and no single slip explains how."
     listed = " and ".join(filter(None, (", ".join(needed[:-1]), needed[-1])))
-    return Verdict.TYPO, f"one slip, {slip}; the derived form is needed by {listed}"
+    need = f"{listed} need{'' if len(needed) > 1 else 's'} the derived form"
+    return Verdict.TYPO, f"One slip explains it, {slip}, and {need}."
 
 
 def mended(expression: sp.Expr, meant: sp.Expr) -> Iterator[tuple[str, sp.Expr]]:
@@ -69,7 +72,9 @@ def mended(expression: sp.Expr, meant: sp.Expr) -> Iterator[tuple[str, sp.Expr]]
         twice = sp.Mul(*(base for base, power in powers.items() if power.is_Integer and power > 1))
         if twice != 1:
             yield f"${latex(twice)}$ printed twice", put(part / twice)
-        yield from ((f"${latex(factor)}$ missing", put(part * factor)) for factor in factors)
+        for factor in factors:
+            yield f"${latex(factor)}$ missing", put(part * factor)
+            yield f"$1/{latex(factor)}$ missing", put(part / factor)
         if isinstance(part, (sp.sin, sp.cos)):
             other = (sp.cos if isinstance(part, sp.sin) else sp.sin)(*part.args)
             yield _stands_for(part, other), put(other)

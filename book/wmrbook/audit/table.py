@@ -1,4 +1,4 @@
-"""The audit as a table, with links to the cells of the chapters that show each row."""
+"""The audit as a list of rows, with links to the cells of the chapters that show each row."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from wmrbook.audit.row import Row, Verdict
 SOURCE = "Judged from a converted text of the paper: a slip may be the conversion's."
 SOURCE += " Its figures are not known."
 _TAG = "audit:"
-_HEAD = "What | Verdict | The paper says | What is found | Shown in"
 
 
 class Place(NamedTuple):
@@ -68,6 +67,7 @@ def tally(rows: Sequence[Row]) -> dict[Verdict, int]:
 class Table:
     """The rows to look at, with the cells that `places` found for them.
 
+    They are one below the other, so that formulas have the width of a page or of a telephone.
     JupyterLab and MyST typeset the Markdown with its mathematics.
     """
 
@@ -79,14 +79,17 @@ class Table:
         return {"text/markdown": self.markdown(), "text/plain": repr(self)}
 
     def markdown(self) -> str:
-        """The source, and a pipe table with a line for each row."""
-        lines = ["| " + _HEAD + " |", "|" + ":-|" * (1 + _HEAD.count("|"))]
-        for row in self.rows:
-            verdict = f"**{row.verdict.value}**: {row.why}"
-            links = _linked(self.where.get(row.item, ()))
-            cells = f"**{row.title}**", verdict, row.says, row.holds, links
-            lines.append("| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |")
-        return "\n".join([f"*{SOURCE}*", "", *lines])
+        """The source, and a list with an entry for each row."""
+        return "\n".join([f"*{SOURCE}*", "", *map(self._entry, self.rows)])
+
+    def _entry(self, row: Row) -> str:
+        parts = [
+            f"**{row.title} {row.verdict.value}.** {row.why}",
+            f"*The paper:* {row.says}",
+            f"*We find:* {row.holds}" if row.holds else "",
+            f"*Shown in* {_linked(self.where.get(row.item, ()))}",
+        ]
+        return "- " + "\\\n  ".join(filter(None, parts))
 
     def __repr__(self) -> str:
         width = max((len(row.title) for row in self.rows), default=0)

@@ -19,7 +19,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "angles": ["half_turn", "polar_angles"],
         "lyapunov": ["bowl", "seam", "two_bars"],
         "design": ["window"],
-        "audit": ["rising"],
         "real_robot": ["silence"],
         "routes": ["corners", "passing"],
         "other_laws": ["race"],

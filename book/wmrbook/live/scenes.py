@@ -63,11 +63,6 @@ SCENES = {
         ),
         Step("inside", "Inside the window the heading settles first.", {"kappa": 4.0, "h": 4.0}),
     ),
-    "rising": (
-        Step("at first", "As printed, V rises here."),
-        Step("a small L", "Let the distance count for more, and it falls.", {"L": 0.001}),
-        Step("nearer", "Nearer to the goal it rises again.", {"rho": 0.005, "L": 0.001}),
-    ),
     "corners": (
         Step("passed", "A corner that is passed."),
         Step("with a stop", "A corner where the robot stops takes longer.", {"stop": "stop"}),

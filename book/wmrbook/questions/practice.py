@@ -103,7 +103,7 @@ def crooked_compass() -> tuple[str, list[Option], str]:
     return ask, numbers(rest, mistaken, "{:.1f} deg"), why
 
 
-@question(10, "One factor too many: (24)", "The law as printed")
+@question(10, "One factor too many", "The law as printed")
 def as_printed() -> tuple[str, list[Option], str]:
     gains, rho, alpha = wmr.paper.OUTDOOR_GAINS, 1e-9, 1e-4
     twist = wmr.control_law(rho, alpha, 0.0, gains, "printed")
@@ -123,7 +123,7 @@ def as_printed() -> tuple[str, list[Option], str]:
     return ask, numbers(rate, mistaken, "{:.0f} per s"), why
 
 
-@question(10, "Parked, or not?", "Is it parked?")
+@question(10, "Decide: parked, or not?", "Is it parked?")
 def is_it_parked() -> tuple[str, list[Option], str]:
     outcomes = {}
     for axis in ("east", "north"):
