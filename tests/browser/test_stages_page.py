@@ -472,6 +472,18 @@ def test_a_stage_splits_the_velocity_as_wmrlib_does(browser_page):
     assert f"{across:.2f} m/s across it. The line turns at {math.degrees(turning):.2f} °/s" in said
 
 
+def test_a_scene_of_its_start_stays_there_whatever_a_hand_moves(browser_page):
+    panel = mounted(browser_page, stages.moving_goal("frame"), width=620, motion="reduce")
+    pictures = []
+    for k_rho in ("1.9", "0.5"):  # another drive, from the same start
+        typed = browser_page.locator("[data-control=k_rho] .wmr-typed")
+        typed.fill(k_rho)
+        typed.dispatch_event("change")
+        panel.set()
+        pictures.append(browser_page.evaluate("document.querySelector('canvas').toDataURL()"))
+    assert pictures[0] == pictures[1]
+
+
 def _words(page) -> str:
     """Return what a stage says, with plain spaces and minuses."""
     said = page.locator(".stage-words[data-on=true]").text_content()
