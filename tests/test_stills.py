@@ -13,7 +13,7 @@ from wmrbook import live
 from wmrbook.panel import Explorer, stills
 
 IMAGE = re.compile(
-    r'^<div class="wmr-still"><img alt="([^"]+)" .*src="data:image/png;base64,(.*?)"'
+    r'^<div class="wmr-still"><img alt="([^"]+)" .*src="data:image/webp;base64,(.*?)"'
 )
 
 

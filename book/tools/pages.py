@@ -70,7 +70,7 @@ VIEW = re.compile(
 SKIP = '<a href="#main-content">Skip to main content</a>'
 TO_PANEL = '<a href="#first-panel">Skip to the first moving picture</a>'
 PANEL = '<div id="first-panel" tabindex="-1"></div>'
-STILL = re.compile(r'<img alt="(?P<alt>[^"]*)" .*?src="data:image/png;base64,(?P<png>[^"]*)"')
+STILL = re.compile(r'<img alt="(?P<alt>[^"]*)" .*?src="data:image/webp;base64,(?P<picture>[^"]*)"')
 # From a page's HTML to the words to be found, with the sections that results lead to.
 ARTICLE = re.compile(r'<article class="bd-article">(.*?)</article>', re.DOTALL)
 UNSPOKEN = re.compile(
@@ -251,8 +251,8 @@ def with_stills(text: str, site: Path, up: str) -> str:
     def pictured(view: re.Match) -> str:
         if not (still := stills.get(json.loads(view[1])["model_id"])):
             return view[0]
-        picture = base64.b64decode(still["png"])
-        name = f"_images/still-{hashlib.sha256(picture).hexdigest()[:12]}.png"
+        picture = base64.b64decode(still["picture"])
+        name = f"_images/still-{hashlib.sha256(picture).hexdigest()[:12]}.webp"
         (site / name).parent.mkdir(exist_ok=True)
         (site / name).write_bytes(picture)
         return f'{view[0]}<noscript><img alt="{still["alt"]}" src="{up}{name}"></noscript>'

@@ -185,9 +185,9 @@ def packed(shot: bytes) -> str:
     image = Image.open(io.BytesIO(shot)).convert("RGB")
     for colours in (COLOURS, COLOURS // 2, COLOURS // 4):
         few = image.quantize(colours, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
-        few.save(file := io.BytesIO(), "PNG", optimize=True)
+        few.convert("RGB").save(file := io.BytesIO(), "WEBP", lossless=True, method=6)
         if len(file.getvalue()) <= LARGEST:
-            return f"data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}"
+            return f"data:image/webp;base64,{base64.b64encode(file.getvalue()).decode()}"
     raise SystemExit(f"a picture has {len(file.getvalue())} bytes: at most {LARGEST} are allowed")
 
 
