@@ -39,7 +39,7 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "bowl simulate": _uphill,
     "seam sweep": lambda f: lambda *a, **o: f(*a, **o | {"hysteresis": 0.4}),
     "two_bars control_law": lambda f: lambda *a: (-f(*a)[0], f(*a)[1]),
-    "window simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(v_max=4.0), **o),
+    "window modes": lambda f: lambda it: f(it._replace(k_alpha=4 * it.k_alpha, h=16 * it.h)),
     "silence rolled": lambda f: lambda v, timeout, brake: f(v, timeout, -brake),
     "corners headings_along": lambda f: lambda x, y: -f(x, y),
     "race control_law": lambda f: lambda *a, **o: (-f(*a, **o)[0], f(*a, **o)[1]),
