@@ -70,7 +70,7 @@ def test_a_page_keeps_the_picture_as_a_file_and_not_twice(tmp_path):
     page += f'<script type="{kind}-state+json">{state}</script>'
     text = pages.with_stills(page, tmp_path, "../")
     alt, picture = IMAGE.match(still).groups()
-    (file,) = tmp_path.rglob("*.png")
+    (file,) = tmp_path.rglob("*.webp")
     assert file.read_bytes() == base64.b64decode(picture)
     address = f"../{file.relative_to(tmp_path).as_posix()}"
     assert f'</script><noscript><img alt="{alt}" src="{address}"></noscript><p>' in text
