@@ -300,6 +300,7 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
         it.setAttribute('aria-hidden', String(!on));
       }
       for (const [result, place] of places) {
+        if (!now && !(result in results)) continue; // another scene computes it
         const text = String(results[result]).replace(/(\d) /g, '$1\u00a0'); // a number, its unit
         if (place.textContent !== text) place.textContent = text;
       }
