@@ -75,7 +75,10 @@ def constant_offset() -> tuple[str, list[Option], str]:
         (-2, 0, True): ("2 m west, heading right", ""),
         (2, 0, True): ("2 m east, heading right", "the error's sign taken over"),
         (0, 0, True): ("on the goal, heading right", "feedback taken to remove every error"),
-        (0, 0, False): ("on the goal, heading wrong", "the place taken for what feedback sees"),
+        (0, 0, False): (
+            "on the goal, heading wrong",
+            "feedback taken to remove the error, and the heading to pay for it",
+        ),
         (-2, 0, False): ("2 m west, heading wrong", "an offset taken for noise"),
     }
     why = """It parks where it believes the goal to be. Nothing in the loop sees a constant
