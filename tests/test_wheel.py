@@ -40,7 +40,7 @@ def test_it_has_the_packages_and_nothing_else(wheel):
 def test_the_librarys_ten_lines_run_from_it(wheel, tmp_path):
     wheel.extractall(tmp_path / "site")
     text = (ROOT / "book" / "api.md").read_text(encoding="utf-8")
-    (lines,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    lines = re.search(r"```python\n(.*?)```", text, re.DOTALL)[1]
     done = subprocess.run(
         [sys.executable, "-c", f"{lines}\nprint(wmr.__file__)"],
         cwd=tmp_path,

@@ -2,9 +2,9 @@
 
 - The directive ``library`` shows what `import wmrlib as wmr` offers from one module, in the order
   of its source, and ``robot`` what `import wmrrobot as wr` does. A page with them needs no change
-  when a name is added or renamed.
+  when a name is added or renamed. Each module of wmrlib has a page, ``api_geodesy`` and so on.
 - A name in a sentence, such as ``wmr.simulate`` or ``simulate(start, ...)``, links to its entry,
-  and so does each ``wmr.simulate`` in a code cell.
+  and so does each ``wmr.simulate`` in a code cell or an example.
 """
 
 from __future__ import annotations
@@ -22,14 +22,16 @@ from sphinx.util.docutils import SphinxDirective
 
 PAGES = {"wmrlib": "api", "wmrrobot": "api_robot"}
 SHORT = {"wmr": "wmrlib", "wr": "wmrrobot"}
+SHORT |= {"figures": "wmrbook.figures", "routes": "wmrbook.chapters.routes"}
+SHORT |= {"symbolic": "wmrlib.symbolic"}
 FIELDS = ("Parameters", "Attributes", "Raises")
-NAME = re.compile(r"(?:(wmr|wr|wmrlib|wmrrobot)\.)?([A-Za-z_][\w.]*)(?:\(.*\))?", re.DOTALL)
+NAME = re.compile(rf"(?:({'|'.join([*SHORT, *PAGES])})\.)?([A-Za-z_][\w.]*)(?:\(.*\))?", re.DOTALL)
 # Code as Pygments marks it up: the module in an import, and wmr.simulate or paper.outdoor.
 MODULE = re.compile(r'<span class="nn">(wmrlib|wmrrobot)(?:\.\w+)*</span>')
 DOT = r'<span class="o">\.</span>'
 MEMBER = re.compile(
-    rf'<span class="n">(wmr|wr|paper|symbolic|estimation)</span>{DOT}<span class="n">(\w+)</span>'
-    rf'(?:{DOT}<span class="n">(\w+)</span>)?'
+    rf'<span class="n">({"|".join([*SHORT, "paper", "estimation"])})</span>'
+    rf'{DOT}<span class="n">(\w+)</span>(?:{DOT}<span class="n">(\w+)</span>)?'
 )
 
 
@@ -121,8 +123,11 @@ def link_code(app, docname, template, context, doctree):
         page = app.builder.get_relative_uri(docname, PAGES[code[1]])
         return f'<a href="{page}">{code[0]}</a>'
 
-    if docname not in PAGES.values() and "body" in context:
-        context["body"] = MEMBER.sub(link, MODULE.sub(link_module, context["body"]))
+    if "body" in context:
+        body = context["body"]
+        if not docname.startswith(tuple(PAGES.values())):  # there, an import is nothing to look up
+            body = MODULE.sub(link_module, body)
+        context["body"] = MEMBER.sub(link, body)
 
 
 def address_in(app, docname: str, package: str | None, name: str) -> str:

@@ -88,7 +88,8 @@ def read_track(path: str | os.PathLike) -> Track:
     CSV: one of the first ten lines names the columns: lat or latitude; lon, lng, long or longitude,
     in degrees (33.27, 33.27 N or "33,27") or e7; optionally N/S and E/W; t, time_s or time_ms,
     or time in ISO 8601, with a date (2026-03-01) beside it or not; valid, fix, quality, status or
-    MAVLink's fix_type. Of several columns the best is used, and the report names the others.
+    MAVLink's fix_type; satellites, hdop, accuracy, speed and course, but no heading. Of several
+    columns the best is used, and the report names the others.
 
     Where times do not increase, the longest run that does is used, and in a step of whole days
     while the clock goes on the date was wrong. Of a clock that shows only minutes, or stands, t

@@ -1,0 +1,43 @@
+"""The examples of the library's pages, each by itself, as a reader copies it."""
+
+import ast
+import re
+
+import pytest
+from assignments import ROOT
+
+PAGES = sorted(path for path in (ROOT / "book").glob("api*.md") if path.stem != "api_robot")
+EXAMPLE = re.compile(r"```python\n(.*?)```", re.DOTALL)
+PRINTED = re.compile(r"^print\(.*\)\s+# (.*)$", re.MULTILINE)
+INDEX = (ROOT / "book" / "api.md").read_text(encoding="utf-8")
+WISHES = INDEX.partition("## I want")[2].partition("\n## ")[0].split("\n### ")
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda path: path.stem)
+def test_an_example_alone_prints_what_its_comment_says(path, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    examples = EXAMPLE.findall(path.read_text(encoding="utf-8"))
+    assert examples
+    for code in examples:
+        exec(code, {})
+        assert capsys.readouterr().out.splitlines() == PRINTED.findall(code)
+
+
+def test_every_wish_in_the_table_has_an_example_of_imports_and_two_to_five_statements():
+    table, *sections = WISHES
+    anchors = re.findall(r"\]\(#([\w-]+)\) \|$", table, re.MULTILINE)
+    titles = [section.partition("\n")[0] for section in sections]
+    assert anchors == [title.lower().replace(" ", "-") for title in titles]
+    assert len(anchors) == 7
+    for section in sections:
+        (code,) = EXAMPLE.findall(section)
+        statements = ast.parse(code).body
+        imports = [it for it in statements if isinstance(it, ast.Import | ast.ImportFrom)]
+        assert imports, section
+        assert 2 <= len(statements) - len(imports) <= 5, section
+
+
+def test_the_pages_show_each_module_that_has_public_names_once():
+    stub = (ROOT / "wmrlib" / "__init__.pyi").read_text(encoding="utf-8")
+    shown = re.findall(r"library:: (\w+)", "".join(path.read_text("utf-8") for path in PAGES))
+    assert sorted(shown) == sorted(set(re.findall(r"from \.(\w+) import", stub)))
