@@ -53,6 +53,7 @@ class Library(SphinxDirective):
         (home,) = self.arguments
         module = import_module(f"{self.package}.{home}")
         names = [name for name in vars(module) if homes(self.package).get(name) == home]
+        names.sort(key=lambda name: made_elsewhere(module, name))
         entries = (entry(self.package, module, name) for name in names)
         return self.parse_text_to_nodes("\n\n".join(entries))
 
@@ -61,6 +62,11 @@ class RobotsLibrary(Library):
     """``robot:: drive``, likewise of wmrrobot."""
 
     package = "wmrrobot"
+
+
+def made_elsewhere(module, name: str) -> bool:
+    """Whether a module only passes a name on; such names come last."""
+    return getattr(getattr(module, name), "__module__", module.__name__) != module.__name__
 
 
 def entry(package: str, module, name: str) -> str:

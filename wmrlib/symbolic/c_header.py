@@ -51,7 +51,7 @@ def c_function(name: str, formula: Formula) -> str:
 
     Parameters
     ----------
-    name, formula : its name without the wmr_; of `c_formulas` or `c_laws`, or one of your own
+    name, formula : its name without the ``wmr_``; of `c_formulas` or `c_laws`, or one of your own
 
     Returns
     -------
