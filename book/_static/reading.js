@@ -1,5 +1,6 @@
 // One switch unfolds the code of every chapter, a symbol that is touched lights up wherever it
-// stands, and each copy button says what it copies.
+// stands, each copy button says what it copies, and a page that is opened again, by Back or anew,
+// is where one read.
 addEventListener('DOMContentLoaded', () => {
   const KEY = 'wmr-code', root = document.documentElement;
   const kept = () => { try { return localStorage.getItem(KEY); } catch { return null; } };
@@ -41,6 +42,33 @@ addEventListener('DOMContentLoaded', () => {
           if (it instanceof Element && it.matches('.copybtn')) nameButton(it);
     }).observe(article, options);
   }
+
+  // The browser remembers how far down one was; but what stands above is higher once its panels
+  // are drawn. So the part of the text at the window's head is remembered.
+  const parts = [...article?.querySelectorAll('section > :not(section)') || []];
+  const entry = () => history.state || {};
+  const go = () => {
+    const { part, top } = entry();
+    if (parts[part]) scrollBy({ top: parts[part].getBoundingClientRect().top - top,
+      behavior: 'instant' });
+  };
+  let waits = parts.length && 'part' in entry(); // until a hand moves the page
+  const settling = new ResizeObserver(() => { if (waits) go(); });
+  if (waits) settling.observe(article);
+  for (const event of ['wheel', 'touchstart', 'pointerdown', 'keydown'])
+    addEventListener(event, () => { waits = false; settling.disconnect(); }, { passive: true });
+  addEventListener('scrollend', () => {
+    if (waits) return;
+    const boxes = parts.map((it) => it.getBoundingClientRect()),
+        part = boxes.findIndex(({ bottom, height }) => height && bottom > 0);
+    if (part < 0) return;
+    history.scrollRestoration = 'manual';
+    history.replaceState({ ...entry(), part, top: boxes[part].top }, '');
+  });
+  addEventListener('keydown', ({ key }) => {
+    if (key === 'Escape')
+      document.querySelector('[data-bs-toggle="dropdown"][aria-expanded="true"]')?.click();
+  });
 
   const roleOf = (target) => {
     const it = target instanceof Element && target.closest('[data-c], .live-symbol');

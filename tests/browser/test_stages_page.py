@@ -231,7 +231,7 @@ def _race() -> str:
         _end(module.START, module.GOAL, module.TUNED[law], law=law, **options)
         for law in ("graceful", "corrected")
     )
-    return f"Graceful stops after {graceful} off.*The corrected law stops after {ours} off"
+    return f"The corrected law stops after {ours} off.*; Graceful stops after {graceful} off"
 
 
 def _seam() -> str:

@@ -70,7 +70,10 @@ def first_drive(scene: str = "whole") -> Stage:
             ),
         ),
         "gentle": Scene(
-            "With the gentle gains it slows down earlier. " + ENDS, look="near", to=GENTLE
+            "With the gentle gains it slows down earlier. " + ENDS,
+            look="near",
+            to=GENTLE,
+            moved=ENDS,
         ),
     }
     points = [paper.GPS_POINT_1, paper.GPS_POINT_2]

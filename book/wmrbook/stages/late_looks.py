@@ -32,6 +32,8 @@ CHOICES = {
     "turn": "last turn",
 }
 
+ENDS = "With a look every {every} it {ends}."
+
 
 def late_looks(scene: str = "whole") -> Stage:
     """Return the paper's drive by a robot that acts only at its ticks, as one of its scenes."""
@@ -49,6 +51,7 @@ def late_looks(scene: str = "whole") -> Stage:
             "The last metre, with the paper's gains and a look every {every}. It {ends}.",
             look="near",
             to={**PAPER, "dt": dt},
+            moved=ENDS,
         ),
         "ask": _asking(
             f"With the paper's gains and ten looks a second it stops {seldom:.0f}° off its "
@@ -78,6 +81,7 @@ def late_looks(scene: str = "whole") -> Stage:
             "Its wheels follow 0.9 s late, about as slowly as the law itself settles. It {ends}.",
             look="near",
             to={"dt": OFTEN, "wheels": "slow"},
+            moved=ENDS,
         ),
         "sticky": _asking(
             f"A sticky wheel stands still below {DEAD} m/s. The robot is to stop within "
@@ -91,12 +95,14 @@ def late_looks(scene: str = "whole") -> Stage:
             "It never drives so slowly that its wheels would stand. It {ends}.",
             look="near",
             to={"dt": OFTEN, "wheels": "least"},
+            moved=ENDS,
         ),
         "turn": Scene(
             "With *h* = 0 the law ignores the goal's heading, but within 5 cm the robot turns on "
             "the spot. It {ends}.",
             look="near",
             to={"dt": OFTEN, "h": 0.0, "wheels": "turn"},
+            moved=ENDS,
         ),
     }
     knobs = gain_knobs(GENTLE_GAINS)
@@ -120,4 +126,4 @@ def _asking(question: str, answers: dict[str, bool], verdict: str, to: dict, the
     """Return a scene of the last metre that asks, and whose one verdict says what happens."""
     key = next(answer for answer, right in answers.items() if right)
     ask = Question(question, dict.fromkeys(answers, verdict), key, then)
-    return Scene("With a look every {every} it {ends}.", look="near", still=True, to=to, ask=ask)
+    return Scene(ENDS, look="near", still=True, to=to, ask=ask)

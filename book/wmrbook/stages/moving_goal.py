@@ -58,6 +58,7 @@ def moving_goal(scene: str = "whole") -> Stage:
             f"Now it also knows how fast the goal drives and turns. {STAYS}",
             look="other",
             to={"law": "kanayama"},
+            moved=STAYS,
         ),
     }
     law = Choice("corrected", LAWS, "what the robot knows", "The robot knows")

@@ -63,9 +63,14 @@ def noisy_fixes(scene: str = "whole") -> Stage:
             ),
         ),
         "lasting": Scene(
-            "Now every error lasts for minutes. " + ENDS, "near", to={"memory": "lasting"}
+            "Now every error lasts for minutes. " + ENDS,
+            "near",
+            to={"memory": "lasting"},
+            moved=ENDS,
         ),
-        "early": Scene("It slows down early and stops within 0.6 m. " + ENDS, "near", to=EARLY),
+        "early": Scene(
+            "It slows down early and stops within 0.6 m. " + ENDS, "near", to=EARLY, moved=ENDS
+        ),
         "late": Scene(
             "It {one}.",
             still=True,

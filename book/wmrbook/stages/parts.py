@@ -39,6 +39,7 @@ class Scene(NamedTuple):
     still : whether the robot waits at its start; with a question, at the end of its drive
     empty : whether there is no robot yet
     until : the share of the drive after which the film of this scene ends
+    moved : what is said instead once a hand has moved a knob or a pose; "" where `says` stays true
     """
 
     says: str
@@ -49,6 +50,7 @@ class Scene(NamedTuple):
     still: bool = False
     empty: bool = False
     until: float = 1.0
+    moved: str = ""
 
 
 class Stage(Knobs):

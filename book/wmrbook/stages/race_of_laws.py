@@ -20,7 +20,7 @@ def race_of_laws(scene: str = "whole") -> Stage:
         return arrival(simulate(START, GOAL, TUNED[law], law=law, **options)).time
 
     first = min(NAMES, key=time)
-    ends = "{other} {theirs}. The corrected law {ours}."
+    ends = "The corrected law {ours}; {other} {theirs}."
     scenes = {
         "whole": Scene("Is another law better? " + ends),
         "near": Scene("The last metre. " + ends, look="near"),

@@ -67,7 +67,11 @@ def three_numbers(scene: str = "whole") -> Stage:
                 {"sign": "wrong"},
             ),
         ),
-        "near": Scene(f"The last metre, with *theta* on the way to 0. {ENDS}", look="near"),
+        "near": Scene(
+            f"The last metre, with *theta* on the way to 0. {ENDS}",
+            look="near",
+            moved=f"The last metre. {ENDS}",
+        ),
     }
     places = {"start": START, "goal": GOAL}
     sign = Choice("right", SIGNS, "theta in the law", "The law takes θ with")

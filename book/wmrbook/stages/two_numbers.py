@@ -92,6 +92,7 @@ def two_numbers(scene: str = "whole") -> Stage:
             f"Gains from a specification. {NUMBERS} The robot {{ends}}.",
             look="other",
             to=DESIGNED,
+            moved=f"{NUMBERS} The robot {{ends}}.",
         ),
         "searched": Scene(
             "A search found *k_rho* = 0.33, *k_alpha* = 2.64 and *h* = 3.98. Here, "

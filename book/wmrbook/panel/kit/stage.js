@@ -98,12 +98,12 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
   });
 
   // Sentences and questions lie on one another, so that the box is as high as the longest.
-  function putWordsOf({ name: of, says, ask }) {
+  function putWordsOf({ name: of, says, moved: then, ask }) {
     const results = [];
     const putText = (it, text) => {
       for (const piece of text.split(/(\{[a-z_]+\}|\*[A-Za-z_]+\*)/)) {
         if (piece[0] === '{')
-          results.push([piece.slice(1, -1), made(it, 'b', { className: 'live-result' })]);
+          results.push([piece.slice(1, -1), made(it, 'b', { className: 'live-result' }), it]);
         else if (piece[0] === '*') putSymbol(it, piece.slice(1, -1));
         else it.append(piece);
       }
@@ -126,7 +126,8 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
       });
       return put(`${k === ask.key ? 'Yes: ' : 'No: '}${verdict}`, 'verdict');
     });
-    return { of, plain: put(says, 'says'), asked, verdicts, results };
+    const plain = put(says, 'says');
+    return { of, plain, after: then ? put(then, 'says') : plain, asked, verdicts, results };
   }
   // A choice among a few is a row of chips.
   function putChoice({ name: knob, choices, says, label }) {
@@ -289,18 +290,19 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
   }
   function tell() {
     const state = values(), results = play.say(state, found, setup);
-    for (const { of, plain, asked, verdicts, results: places } of words) {
+    for (const { of, plain, after, asked, verdicts, results: places } of words) {
       const now = of === state.scene, verdict = verdicts[state.answer];
-      const chosen = verdict || (asked && state.answer === null ? asked : plain);
-      for (const it of [plain, asked, ...verdicts].filter(Boolean)) {
+      const chosen = verdict || (asked && state.answer === null ? asked : touched ? after : plain);
+      for (const it of new Set([plain, after, asked, ...verdicts].filter(Boolean))) {
         const on = now && it === chosen;
         if (on === (it.dataset.on === 'true')) continue;
         it.dataset.on = String(on);
         it.inert = !on;
         it.setAttribute('aria-hidden', String(!on));
       }
-      for (const [result, place] of places) {
+      for (const [result, place, it] of places) {
         if (!now && !(result in results)) continue; // another scene computes it
+        if (touched && asked && asked.contains(it)) continue; // it asks what it asked
         const text = String(results[result]).replace(/(\d) /g, '$1\u00a0'); // a number, its unit
         if (place.textContent !== text) place.textContent = text;
       }

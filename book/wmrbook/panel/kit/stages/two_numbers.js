@@ -22,7 +22,7 @@ export default stage('two_numbers', {
     return { run, kappa, unit, start: [x * unit, y * unit],
       inside: kappa > 2 && kappa < 1 + gains.h, tracks: [{ ...run, role: 'path' }] };
   },
-  look: (values, { unit }) => [-4.4, -3.2, 1.6, 1.6].map((edge) => edge * unit),
+  look: (values, { unit }) => [-4.4, -3.2, 2.6, 1.6].map((edge) => edge * unit),
   corner: (values, found, size) => cornerOf(size, CORNER),
   say: ({ h, goal }, { run, kappa, unit, inside }) => ({
     kappa: written(kappa), height: inWords(h), ends: endOf(run, goal),
