@@ -19,6 +19,7 @@ NOTEBOOKS = Path(__file__).parent.parent / "notebooks"
 CHAPTERS = sorted(NOTEBOOKS.glob("0[0-5]_*.ipynb"))
 FACTORS = (1.25, 0.8, 2.0)
 CHANGED = 3  # cells of a chapter
+SLOW = {"01", "02"}  # tried with the slow tests
 ADVICE = ("not allowed", "needed", "must", "at least", "at most")  # a message that says why
 
 
@@ -95,7 +96,11 @@ def at_home(monkeypatch):
     monkeypatch.setattr("builtins.display", lambda *shown, **options: None, raising=False)
 
 
-@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path",
+    [pytest.param(it, marks=[pytest.mark.slow] * (it.stem[:2] in SLOW)) for it in CHAPTERS],
+    ids=lambda path: path.stem,
+)
 def test_a_changed_number_runs_or_is_told_why_not(path, at_home):
     cells, names = cells_of(path), {"__name__": "__main__"}
     some = [k for k, (source, shown) in enumerate(cells) if shown and numbers(source)]

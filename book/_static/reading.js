@@ -57,6 +57,7 @@ addEventListener('DOMContentLoaded', () => {
   if (waits) settling.observe(article);
   for (const event of ['wheel', 'touchstart', 'pointerdown', 'keydown'])
     addEventListener(event, () => { waits = false; settling.disconnect(); }, { passive: true });
+  addEventListener('popstate', go); // Back within a page
   addEventListener('scrollend', () => {
     if (waits) return;
     const boxes = parts.map((it) => it.getBoundingClientRect()),

@@ -34,6 +34,13 @@ ARRIVED = """() => [
     document.querySelector(decodeURIComponent(location.hash)).getBoundingClientRect().top,
     document.querySelector('.docked-stage .wmr.stage').dataset.scene,
 ]"""
+# What stands at the window's head, and how far above or below it.
+HEAD = """() => {
+    const parts = [...document.querySelectorAll('.bd-article section > :not(section)')],
+        boxes = parts.map(it => it.getBoundingClientRect()),
+        part = boxes.findIndex(({ bottom, height }) => height && bottom > 0);
+    return [part, Math.round(boxes[part].top)];
+}"""
 IDS = """() => [...document.querySelectorAll('section[class*="stage-"]')].map(it => it.id)"""
 
 
@@ -119,6 +126,11 @@ def test_a_docked_page_keeps_its_buttons_its_links_and_the_readers_place(opened,
     drawer.wait_for()
     page.keyboard.press("Escape")
     drawer.wait_for(state="hidden")
+    page.locator(".theme-switch-button:visible").click()
+    menu = page.locator(".dropdown-menu.show")
+    menu.wait_for()
+    page.keyboard.press("Escape")
+    menu.wait_for(state="hidden")
 
     for wanted, section in list(zip(scenes(notebook), names, strict=True))[1::3]:
         page.goto("about:blank")
@@ -128,12 +140,24 @@ def test_a_docked_page_keeps_its_buttons_its_links_and_the_readers_place(opened,
         top, _ = page.evaluate(ARRIVED)
         assert 0 <= top < 0.45 * DESK["height"], section
 
-    page.evaluate("scrollTo({ top: 6000, behavior: 'instant' })")
-    other = list(CHAPTERS)[6]
-    page.goto(page.url.replace(name, other).partition("#")[0], wait_until="load")
-    page.go_back(wait_until="load")
+    page.goto(page.url.partition("#")[0], wait_until="load")
     settle(page)
-    assert abs(page.evaluate("scrollY") - 6000) < 60, "Back leads to where one was"
+    page.evaluate("scrollTo({ top: 0.8 * document.body.scrollHeight, behavior: 'instant' })")
+    settle(page)
+    head = page.evaluate(HEAD)
+    page.reload(wait_until="load")
+    page.wait_for_function(f"head => `${{({HEAD})()}}` === `${{head}}`", arg=head)
+    other = list(CHAPTERS)[6]
+    page.goto(page.url.replace(name, other), wait_until="load")
+    page.go_back(wait_until="load")
+    page.wait_for_function(f"head => `${{({HEAD})()}}` === `${{head}}`", arg=head)
+    settle(page)
+    assert page.evaluate(HEAD) == head, "Back leads to where one was"
+    page.evaluate("id => { location.hash = id; }", names[1])
+    page.wait_for_function(f"({ARRIVED})()[0] < 200")
+    page.wait_for_timeout(300)  # until the place is kept
+    page.go_back()
+    page.wait_for_function(f"head => `${{({HEAD})()}}` === `${{head}}`", arg=head)
 
     page.set_viewport_size({"width": 1200, "height": 768})
     page.wait_for_selector("html:not(.docked)")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from wmrbook.live.parts import Choice, Knob, nearest
 from wmrbook.stages.parts import (
+    GENTLE,
     PAPER,
     Question,
     Scene,
@@ -45,13 +46,15 @@ def late_looks(scene: str = "whole") -> Stage:
     scenes = {
         "whole": Scene(
             "From one look to the next it drives blind. How long may it close its eyes? "
-            "After {looks} looks it {ends}."
+            "After {looks} looks it {ends}.",
+            handles=(*GENTLE, "dt"),
         ),
         "near": Scene(
             "The last metre, with the paper's gains and a look every {every}. It {ends}.",
             look="near",
             to={**PAPER, "dt": dt},
             moved=ENDS,
+            handles=(*GENTLE, "dt"),
         ),
         "ask": _asking(
             f"With the paper's gains and ten looks a second it stops {seldom:.0f}° off its "

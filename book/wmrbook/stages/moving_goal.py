@@ -51,6 +51,7 @@ def moving_goal(scene: str = "whole") -> Stage:
             "the robot, or turn it.",
             look="other",
             shows=("frame",),
+            handles=(),
             still=True,
             until=0.0,
         ),

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from wmrbook.live.parts import Choice, Knob
-from wmrbook.stages.parts import Question, Scene, Stage, gain_knobs
+from wmrbook.stages.parts import GENTLE, Question, Scene, Stage, gain_knobs
 from wmrlib import GENTLE_GAINS, LastTurn, Pose, Receiver, sweep
 
 START, GOAL = Pose(0.0, 0.0, 0.0), Pose(8.0, 3.0, math.pi / 3.0)
@@ -16,6 +16,7 @@ LATE, MEMORIES = 0.6, {"new": 0.0, "lasting": 300.0}  # s
 EARLY = {"k_rho": 0.05, "k_alpha": 0.7, "h": 4.0, "radius": 0.6}
 TURN = LastTurn(leave=1e9)
 ENDS = "On {days} days it {ends}."
+NOISE, HELD = (*GENTLE, "sigma"), (*GENTLE, "radius")  # what a hand moves: the gains, and one more
 
 
 def noisy_fixes(scene: str = "whole") -> Stage:
@@ -40,18 +41,23 @@ def noisy_fixes(scene: str = "whole") -> Stage:
         "neither": min(position, heading) == math.inf,
     }
     scenes = {
-        "whole": Scene("The dots are where its receiver says it is. Where does it stop? " + ENDS),
+        "whole": Scene(
+            "The dots are where its receiver says it is. Where does it stop? " + ENDS,
+            handles=NOISE,
+        ),
         "sight": Scene(
             "Twenty fixes that it could have had here, and from each the line of sight. The nearer "
             "the goal, the wider they fan out.",
             "near",
             shows=("sight",),
             until=0.8,
+            handles=NOISE,
         ),
         "ask": Scene(
             ENDS,
             "near",
             still=True,
+            handles=NOISE,
             ask=Question(
                 "If it turns three times as fast towards what it sees, how crooked does it stop?",
                 dict.fromkeys(
@@ -67,14 +73,20 @@ def noisy_fixes(scene: str = "whole") -> Stage:
             "near",
             to={"memory": "lasting"},
             moved=ENDS,
+            handles=("memory", "sigma", "radius"),
         ),
         "early": Scene(
-            "It slows down early and stops within 0.6 m. " + ENDS, "near", to=EARLY, moved=ENDS
+            "It slows down early and stops within 0.6 m. " + ENDS,
+            "near",
+            to=EARLY,
+            moved=ENDS,
+            handles=HELD,
         ),
         "late": Scene(
             "It {one}.",
             still=True,
             to={"sigma": 0.0},
+            handles=("late", *GENTLE),
             ask=Question(
                 f"One robot sees its position {LATE} s late, another its heading. Which of them "
                 "stops within a minute?",
@@ -87,7 +99,7 @@ def noisy_fixes(scene: str = "whole") -> Stage:
                 {"late": "heading"},
             ),
         ),
-        "turn": Scene("Where it stops, it turns by its compass. " + ENDS, "near"),
+        "turn": Scene("Where it stops, it turns by its compass. " + ENDS, "near", handles=HELD),
     }
     knobs = gain_knobs(GENTLE_GAINS)
     knobs["sigma"] = Knob(

@@ -40,6 +40,7 @@ class Scene(NamedTuple):
     empty : whether there is no robot yet
     until : the share of the drive after which the film of this scene ends
     moved : what is said instead once a hand has moved a knob or a pose; "" where `says` stays true
+    handles : names of the knobs that it shows; None for all of them
     """
 
     says: str
@@ -51,6 +52,7 @@ class Scene(NamedTuple):
     empty: bool = False
     until: float = 1.0
     moved: str = ""
+    handles: tuple[str, ...] | None = None
 
 
 class Stage(Knobs):
@@ -110,6 +112,10 @@ class Stage(Knobs):
         """Return a scene as the page has it."""
         choice(f"look of {key!r}", scene.look, LOOKS)
         row = scene._asdict() | {"name": key, "to": self._moved(scene.to)}
+        if scene.handles is None:
+            del row["handles"]
+        else:
+            row["handles"] = [self._named(name) for name in scene.handles]
         if scene.ask is not None:
             answers = [*map(list, scene.ask.answers.items())]
             right = [*scene.ask.answers].index(choice("key", scene.ask.key, scene.ask.answers))

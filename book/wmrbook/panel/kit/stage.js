@@ -146,8 +146,11 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
       });
       return [value, chip];
     });
-    return (now) => chips.forEach(([value, chip]) =>
-      chip.setAttribute('aria-pressed', String(now[knob] === value)));
+    return (now) => {
+      row.hidden = !(knob in now);
+      chips.forEach(([value, chip]) =>
+        chip.setAttribute('aria-pressed', String(now[knob] === value)));
+    };
   }
 
   // A verdict is of what was asked: the handles go where the question put them, and from there.
@@ -307,7 +310,8 @@ export const stage = (name, play) => widget(`stages/${name}`, ({ model, el }) =>
         if (place.textContent !== text) place.textContent = text;
       }
     }
-    const places = Object.fromEntries(setup.knobs.map((it) => [it.name, state[it.name]]));
+    const { handles: shown = setup.knobs.map((it) => it.name) } = scene();
+    const places = Object.fromEntries(shown.map((it) => [it, state[it]]));
     showRows.forEach((showRow) => showRow(places));
     nearer.textContent = close ? 'The whole way' : 'The last metre';
     canvas.setAttribute('aria-label', `A lawn from above. ${
