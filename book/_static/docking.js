@@ -16,7 +16,7 @@ addEventListener('DOMContentLoaded', () => {
   // stage is not beside the text, it is as the chapter opens.
   const read = () => {
     const top = (it) => it.getBoundingClientRect().top / innerHeight,
-        named = sections.find((it) => `#${it.id}` === decodeURIComponent(location.hash));
+        named = sections.find((it) => `#${it.id}` === location.hash);
     const now = named && Math.abs(top(named) - 0.1) < 0.15 ? named :
       sections.filter((it) => top(it) < 0.45).at(-1);
     return wide.matches && now ? sceneOf(now) : stage.opening;
