@@ -73,8 +73,9 @@ PANEL = '<div id="first-panel" tabindex="-1"></div>'
 STILL = re.compile(r'<img alt="(?P<alt>[^"]*)" .*?src="data:image/webp;base64,(?P<picture>[^"]*)"')
 # From a page's HTML to the words to be found, with the sections that results lead to.
 ARTICLE = re.compile(r'<article class="bd-article">(.*?)</article>', re.DOTALL)
-UNSPOKEN = re.compile(
-    r'<(script|style|svg|summary)\b.*?</\1>|<a class="headerlink".*?</a>'
+BLOCK_ENDS = re.compile(r"(?=</(?:p|li|dt|h\d|t[dh]|figcaption)>)")
+UNSPOKEN = re.compile(  # code and printouts too: a search shows a sentence
+    r'<(script|style|svg|summary|pre)\b.*?</\1>|<a class="headerlink".*?</a>'
     r'|<div class="[^"]*\bmath\b.*?</div>'
     r"|<(?!/?section\b)[^>]+>",
     re.DOTALL,
@@ -231,8 +232,9 @@ def mend(app, exception):
         text = with_stills(text, Path(app.outdir), "../" * name.count("/"))
         path.write_text(text, encoding="utf-8")
         if name in app.env.found_docs:
-            plain = FORMULA.sub(_in_letters, UNSPOKEN.sub("", ARTICLE.search(text)[1]))
-            words[name] = re.sub(r"\s+", " ", plain)
+            article = BLOCK_ENDS.sub("\n", re.sub(r"\s+", " ", ARTICLE.search(text)[1]))
+            plain = FORMULA.sub(_in_letters, UNSPOKEN.sub("", article))
+            words[name] = re.sub(r"\s*\n\s*", "\n", re.sub(r" +", " ", plain))
     _thin_icons(Path(app.outdir))
     script = f"const PAGES = {json.dumps(words, ensure_ascii=False)};\n"
     Path(app.outdir, "_static", "words.js").write_text(script, encoding="utf-8")

@@ -114,6 +114,19 @@ def test_search_finds_the_page_that_says_it_most_and_shows_formulas_as_letters(o
     assert not re.search(r"\\|frac\d", words)
 
 
+@pytest.mark.parametrize(
+    "asked, page", [("arrival radius", 9), ("dead band", 8), ("haversine formula", 1)]
+)
+def test_a_search_shows_the_sentence_with_all_words_and_no_code(opened, asked, page):
+    shown = opened(f"search.html?q={asked.replace(' ', '+')}")
+    link = shown.locator(f'a[href^="notebooks/{page:02}_"]')
+    hit = shown.locator("#search-results li").filter(has=link).first
+    words = hit.locator(".context").inner_text(timeout=PATIENCE)
+    assert asked in words.lower(), words
+    code = shown.evaluate("Object.values(PAGES).filter(it => it.includes('import numpy'))")
+    assert not code, code[0][:200]
+
+
 class Parts(HTMLParser):
     """What a page names: its anchors, where it points, and what its images say.
 
