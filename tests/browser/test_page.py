@@ -115,7 +115,7 @@ def test_search_finds_the_page_that_says_it_most_and_shows_formulas_as_letters(o
 
 
 @pytest.mark.parametrize(
-    "asked, page", [("arrival radius", 9), ("dead band", 8), ("haversine formula", 1)]
+    ("asked", "page"), [("arrival radius", 9), ("dead band", 8), ("haversine formula", 1)]
 )
 def test_a_search_shows_the_sentence_with_all_words_and_no_code(opened, asked, page):
     shown = opened(f"search.html?q={asked.replace(' ', '+')}")
