@@ -94,10 +94,16 @@ def test_a_stage_stands_in_its_scene_as_its_slide_says():
     assert state["setup"]["poses"]["start"] == [1.0, -3.0, math.radians(90.0)]
 
 
-@pytest.mark.parametrize("number", ["00", "01", "02", "03", "04", "05", "08"])
+@pytest.mark.parametrize("number", NUMBERS[:11])
 def test_no_picture_stands_twice_in_a_deck(number):
     figures = re.findall(r"^figure: (.*)$", source(number), re.MULTILINE)
     assert sorted(figures) == sorted({*figures})
+
+
+def test_a_vote_shows_the_situation_of_its_question_and_an_unknown_one_is_refused():
+    assert "before its moves" in slides.picture_of("02", "question/four-moves")
+    with pytest.raises(SystemExit, match="no picture of the question 'three-moves', only two-angl"):
+        slides.picture_of("02", "question/three-moves")
 
 
 def test_items_of_some_lists_appear_one_by_one(tmp_path):

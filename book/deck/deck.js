@@ -14,7 +14,7 @@
 
   /** Makes the words as large as fit; a panel's canvases take what is left. */
   function fit(page) {
-    page.style.setProperty('--zoom', rem() / 17.5); // letters of 13 pixels are 20 at 1280 by 720
+    page.style.setProperty('--zoom', rem() / 15.1); // letters of 13 pixels are 24 at 1280 by 720
     const stage = page.querySelector('.wmr-stage'), figure = page.querySelector('figure');
     if (stage) {
       page.style.setProperty('--canvas', '0px');

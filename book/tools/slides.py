@@ -5,8 +5,9 @@ make one deck of the concept questions instead, with their answers in the notes.
 lecturer alone, in folders of their own, since the other decks are for everybody.
 
 In a deck's source each `# claim` begins a slide. A line `figure: CELL` below it shows what that
-cell of the chapter has stored, a figure or a panel (`03/CELL`: of chapter 3). A panel may begin
-elsewhere, `figure: CELL theta=90 law=printed`, and without its prediction: `figure: CELL open`.
+cell of the chapter has stored, a figure or a panel (`03/CELL`: of chapter 3), or the situation of a
+concept question (`question/four-moves`). A panel may begin elsewhere,
+`figure: CELL theta=90 law=printed`, and without its prediction: `figure: CELL open`.
 A stage begins with one of its scenes, `figure: CELL scene=near h=0 start=0,-4,90`: the knobs and
 poses (metres and degrees) stand so in this scene. The items of a list of `+` or `1)` appear one
 by one.
@@ -120,6 +121,8 @@ def chapter(number: str) -> NotebookNode:
 def picture_of(number: str, name: str, *settings: str) -> str:
     """Return the figure or panel of a cell; a panel as it is set by NAME=VALUE and `open`."""
     number, name = name.split("/") if "/" in name else (number, name)
+    if number == "question":
+        return situation(name)
     notebook = chapter(number)
     data = [
         output.data
@@ -131,6 +134,15 @@ def picture_of(number: str, name: str, *settings: str) -> str:
     if len(data) != 1:
         raise SystemExit(f"chapter {number} has {len(data)} pictures at cell {name!r}: 1 is needed")
     return pictured(data[0], notebook.metadata.get("widgets", {}).get(STATE, {}), settings)
+
+
+def situation(question: str) -> str:
+    """Return the picture of what a concept question asks about."""
+    from wmrbook.figures.scenes import SCENES, scene_of
+
+    if question not in SCENES:
+        raise SystemExit(f"no picture of the question {question!r}, only {', '.join(SCENES)}")
+    return pictured(scene_of(question)._repr_mimebundle_(), {}, ())
 
 
 def pictured(data: dict, stored: dict, settings: Iterable[str]) -> str:

@@ -1,8 +1,10 @@
 // What is wrong with a deck, of which all slides are laid out: [slide, kind, what] for each
 // trouble. Sizes count against the height of a picture of 16 to 9, as wide as the window: in a
-// squarer one what limits them is its width.
+// squarer one what limits them is its width. Letters are 24 of 720 high, or 20 in a stored figure
+// and in the Explorer, which is a tool.
 () => {
-  const found = [], tallest = Math.min(innerHeight, innerWidth * 9 / 16), least = tallest / 36;
+  const found = [], tallest = Math.min(innerHeight, innerWidth * 9 / 16), least = tallest / 30,
+      drawnLeast = tallest / 36;
   const sight = (it) => it.closest('aside, mjx-assistive-mml, .wmr-aside') === null
       && it.checkVisibility();
   const size = (it) => parseFloat(getComputedStyle(it).fontSize);
@@ -22,7 +24,7 @@
       const drawn = decodeURIComponent(picture.src || '').matchAll(/scale\(([\d.]+) -/g),
           points = Math.min(...[...drawn].map((it) => 100 * Number(it[1]))),
           letters = points * tall / naturalHeight / 0.75;
-      if (letters < least - 0.05) tell('small letters', `${letters.toFixed(1)} px`);
+      if (letters < drawnLeast - 0.05) tell('small letters', `${letters.toFixed(1)} px`);
     }
 
     const texts = document.createTreeWalker(page, NodeFilter.SHOW_TEXT), small = new Set();
@@ -30,7 +32,8 @@
       const it = texts.currentNode.parentElement;
       if (!texts.currentNode.data.trim() || !sight(it) || it.closest('mjx-container, script, sub'))
         continue;
-      if (size(it) < least - 0.01) small.add(`${it.tagName} ${size(it).toFixed(1)}`);
+      if (size(it) < (it.closest('.wmr-stage') ? drawnLeast : least) - 0.01)
+        small.add(`${it.tagName} ${size(it).toFixed(1)}`);
     }
     for (const it of all('mjx-container'))
       if (size(it) < least - 0.01) small.add(`formula ${size(it).toFixed(1)}`);

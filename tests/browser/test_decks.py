@@ -27,7 +27,7 @@ SIZES = [(1280, 720)] + [(1920, 1080), (1366, 768), (1024, 768)] * bool(READY)
 TROUBLES = (Path(__file__).parent / "slides.js").read_text(encoding="utf-8")
 ALL_OPEN = """() => ![...document.querySelectorAll('.live')].some(
     it => it.dataset.open !== 'true' || it.dataset.moving)"""
-EXPLORER = "[data-program=explorer]"
+STAGE = "[data-program=first_drive]"
 SHOW = """what => {
     const at = deck.getIndices(document.querySelector(what).closest('section'));
     deck.slide(at.h, at.v);
@@ -56,10 +56,11 @@ def opened(decks, browser_page):
 
 
 def go_to_panel(page):
-    """Opens the slide with the Explorer, by its address, and returns its first slider."""
-    page.evaluate(SHOW, EXPLORER)
-    page.locator(".wmr-stage canvas:visible").first.wait_for(timeout=PATIENCE)
-    return page.locator(".wmr-stage .wmr-slider:visible").first
+    """Opens the first slide with a stage and returns its first slider."""
+    page.evaluate(SHOW, STAGE)
+    stage = page.locator("section.present .stage[data-done=true]")
+    stage.wait_for(timeout=PATIENCE)
+    return stage.locator(".wmr-slider:visible").first
 
 
 ANSWER = """() => {

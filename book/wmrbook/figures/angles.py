@@ -110,19 +110,20 @@ def draw_angles(axes: Axes, pose: Pose, goal: Pose) -> None:
 def path_choices(tracks: Mapping[str, Pose], goal: Pose) -> Picture:
     """The paths of one to four robots to one goal, each a Pose of arrays [m, rad] by its label.
 
-    A robot stands at the last pose of each.
+    A robot stands at the last pose of each, the first one largest, for all may end at the goal.
     """
     instance("goal", goal, Pose)
     check_count("tracks", tracks, 1, len(LINES))
     figure, axes = new_figure(6.5, 5.5)
     handles, words = [], []
     roles = "path", "y_error", "omega", "ink"
-    for (label, track), style, role in zip(tracks.items(), LINES, roles, strict=False):
+    sizes = np.arange(len(tracks), 0, -1) * 0.7 + 0.3
+    for (label, track), style, role, size in zip(tracks.items(), LINES, roles, sizes, strict=False):
         axes.plot(track.x, track.y, style, color=COLOURS[role])
         path = Pose(*np.broadcast_arrays(*track))
         end = pose_at(path, -1)
         pose_arrow(axes, pose_at(path, 0), "start", 0.8)
-        robot(axes, end, role)
+        robot(axes, end, role, size)
         handles.append(Line2D([], [], color=COLOURS[role], ls=style, label=label))
         left = math.degrees(wrap_angle(end.heading - goal.heading))
         distance = math.hypot(goal.x - end.x, goal.y - end.y)

@@ -65,6 +65,16 @@ SCENES = {
         "the right one at 0.2 m/s.",
         "wheels; arrow -2 0 -2 4.5 0.6 m/s; arrow 2 0 2 1.5 0.2 m/s; span -2 -3.2 2 -3.2 0.5 m",
     ),
+    "four-moves": (
+        "The robot before its moves, and dotted, ahead of there and turned to the left, after two "
+        "of the four.",
+        "robot 0 -3 90 < before; seen 0 2.5 120 > after two moves; arrow 0 -1.6 0 0.6 forward",
+    ),
+    "one-factor": (
+        "A robot with two wheels, 0.5 m apart, from above. The law asks for 2 m/s ahead and for "
+        "4 rad/s to the left.",
+        "wheels; arrow 0 0 0 4.5 2 m/s, 4 rad/s; span -2 -3.2 2 -3.2 0.5 m",
+    ),
     "swapped-cables": (
         "A robot from above: the cable of the left plug leads to the right wheel's motor, that of "
         "the right plug to the left one's. The goal lies ahead, to the left.",

@@ -103,7 +103,10 @@ def mirror() -> tuple[str, list[Option], str]:
         (1, 1): ("both stay", "the law taken not to know left from right"),
         (-1, -1): ("both change their signs", "the mirror taken to turn everything round"),
         (-1, 1): ("$v$ changes its sign, $\\omega$ stays", "a mirror taken for a reverse gear"),
-        (1, 0): ("$v$ stays, $\\omega$ changes its size", "the sum of two angles taken for uneven"),
+        (1, 0): (
+            "$v$ stays, $\\omega$ changes its size",
+            "$\\alpha + h\\theta$ taken to be larger there",
+        ),
     }
     why = """Both angles change their signs. $v$ is even in them, $\\omega$ odd: the drive is
         mirrored."""
@@ -154,15 +157,12 @@ def nearer() -> tuple[str, list[Option], str]:
         {100.0 * left["none"]:.0f} cm behind. The further off its goal, the faster it drives.
         Which change halves the distance?"""
     options = {
-        "k_rho": ("the same speed at half the distance", ""),
-        "k_alpha": ("twice the steering", "$k_\\alpha$: quicker steering taken to catch up"),
-        "h": (
-            "twice the weight of the goal's heading",
-            "$h$: weight on the heading taken for weight on the place",
-        ),
-        "v_max": ("half the top speed", "a calmer robot taken for a closer one"),
+        "k_rho": ("$k_\\rho$ doubled", ""),
+        "k_alpha": ("$k_\\alpha$ doubled", "quicker steering taken to catch up"),
+        "h": ("$h$ doubled", "weight on the heading taken for weight on the place"),
+        "v_max": ("$v_{\\max}$ halved", "a calmer robot taken for a closer one"),
         "all": (
-            "twice the steering, that weight fourfold",
+            "$k_\\alpha$ doubled, $h$ four times as large",
             "stiffer steering taken to catch up",
         ),
     }

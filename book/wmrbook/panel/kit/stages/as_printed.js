@@ -28,7 +28,7 @@ const FINDS = {
     const { tracks } = raced({ laws }, { start: poseOfError(...error, ...goal), goal,
       gains: { ...gains, h }, dt: 0.02, duration: seconds, arrivalRadius: 0 });
     const curves = tracks.map(({ V }) => Array.from(V, (value) => value / V[0]));
-    return { tracks, curves };
+    return { tracks, curves, most: Math.max(...curves.flat()) };
   },
   circle({ h }, { laws, circle: { gains, start, seconds } }) {
     const { tracks } = raced({ laws }, { start, reference: 'circle', gains: { ...gains, h },
@@ -53,18 +53,19 @@ export default stage('as_printed', {
     if (scene !== 'rises' && !(scene in asked)) return null;
     const xs = tracks.flatMap((track) => [...track.x, x]),
         ys = tracks.flatMap((track) => [...track.y, y]);
-    return [Math.min(...xs) - reach, Math.min(...ys) - reach, Math.max(...xs) + reach,
-      Math.max(...ys) + reach];
+    // below them the goal's arrow has to clear the buttons
+    return [Math.min(...xs) - reach, Math.min(...ys) - (scene in asked ? 2 : 1) * reach,
+      Math.max(...xs) + reach, Math.max(...ys) + reach];
   },
   corner: ({ scene }, found, size) => (scene === 'rises' ? cornerOf(size, CORNER) : null),
-  say({ scene, goal }, { tracks, curves }, { data: { blind: asked } }) {
+  say({ scene, goal }, { tracks, most }, { data: { blind: asked } }) {
     if (scene in asked) {
       const [{ x, y, heading, n }] = tracks, poses = [0, n - 1].map((k) => [x[k], y[k]]),
           [first, last] = poses.map((pose) => sightOf(pose, goal));
       return { turned: inDegrees(wrap(last - first), 0),
         alpha: inDegrees(wrap(last - heading[n - 1]), 0) };
     }
-    if (scene === 'rises') return { most: written(Math.max(...curves[0]), '', 2) };
+    if (scene === 'rises') return { most: written(most, '', 2) };
     if (scene === 'circle')
       return Object.fromEntries(tracks.map((track) =>
         [`${track.robot}_gap`, lengthText(summarise(track).residual, 2)]));
@@ -78,13 +79,13 @@ export default stage('as_printed', {
     pane.line([[x[0], y[0]], goal], 'ghost', { width: 1.5, dash: [6, 5] });
     pane.line([pose, goal], 'rho', { width: 2 });
   },
-  above(pane, { scene }, { tracks, curves }, { k, time }) {
+  above(pane, { scene }, { tracks, curves, most }, { k, time }) {
     if (scene === 'circle') {
       const [{ goalX, goalY, goalHeading }] = tracks;
       pane.pose([goalX[k], goalY[k], goalHeading[k]], 'goal');
     }
     if (scene !== 'rises') return;
-    const [{ t }] = tracks, last = t[t.length - 1], most = Math.max(...curves[0]);
+    const [{ t }] = tracks, last = t[t.length - 1];
     const inset = insetOf(pane, 'left', insetSize(pane, CORNER), [-0.05 * last, 1.05 * last],
       [-0.1 * most, 1.25 * most]);
     inset.within(() => {

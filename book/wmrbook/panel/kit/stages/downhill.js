@@ -66,9 +66,9 @@ export default stage('downhill', {
       }
     });
     if (parts) {
-      pane.text('of the distance', ...inset.at([0.4 * last, 0.72 * most]),
+      pane.text('of the distance', ...inset.at([0.36 * last, 0.72 * most]),
           { role: 'rho', size: 13, fixed: true });
-      pane.text('of the angles', ...inset.at([0.4 * last, 0.54 * most]),
+      pane.text('of the angles', ...inset.at([0.36 * last, 0.54 * most]),
           { role: 'alpha', size: 13, fixed: true });
     }
     pane.text('time', ...inset.at([last, 0]),

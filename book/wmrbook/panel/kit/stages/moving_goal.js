@@ -34,7 +34,7 @@ export default stage('moving_goal', {
         Math.max(start[0], x) + room, Math.max(start[1], y) + room];
     }
     const xs = [start[0], 0, -2 * radius], ys = [start[1], radius, -radius];
-    return [Math.min(...xs) - MARGIN, Math.min(...ys) - MARGIN, Math.max(...xs) + 2 * MARGIN,
+    return [Math.min(...xs) - MARGIN, Math.min(...ys) - MARGIN, Math.max(...xs) + 3 * MARGIN,
       Math.max(...ys) + MARGIN];
   },
   corner: (values, found, size, { shows }) => (shows.includes('speeds')
@@ -88,7 +88,7 @@ export default stage('moving_goal', {
     const note = (text, place, role, looks) =>
       pane.text(text, ...inset.at(place), { role, size: 13, fixed: true, ...looks });
     note('the goal', [FAR, speed], 'goal', { dx: -4, dy: -10, align: 'right' });
-    note('the law', [0.16, 1.4], 'path', { align: 'right', dx: -8 });
+    note('the law', [FAR, 1.1], 'path', { align: 'right', dx: -4 });
     note('distance', [FAR, 0], 'soft', { size: 12, dx: -4, dy: 8, align: 'right' });
     note('speed', [0, FAST], 'soft', { size: 12, dx: 5, dy: -10 });
   },
