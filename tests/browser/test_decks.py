@@ -27,7 +27,7 @@ SIZES = [(1280, 720)] + [(1920, 1080), (1366, 768), (1024, 768)] * bool(READY)
 TROUBLES = (Path(__file__).parent / "slides.js").read_text(encoding="utf-8")
 ALL_OPEN = """() => ![...document.querySelectorAll('.live')].some(
     it => it.dataset.open !== 'true' || it.dataset.moving)"""
-STAGE = "[data-program=first_drive]"
+STAGE = '[data-program="stages/first_drive"]'
 SHOW = """what => {
     const at = deck.getIndices(document.querySelector(what).closest('section'));
     deck.slide(at.h, at.v);
