@@ -133,14 +133,6 @@ CASES = {
     "challenge_paths": lambda: figures.challenge_paths(score(0.128, 1.089, 1.42, 7.528)),
     "challenge_paths, wild": lambda: figures.challenge_paths(score(5.0, 0.1, 5.0, 20.0)),
     "heading_powers": lambda: figures.heading_powers({"docking": graceful()}, {"docking": 2.0}),
-    "heading_distance": lambda: figures.heading_distance(
-        np.array([1.0, 2.0, 5.0]),
-        {"good": np.array([9.0, 4.0, 1.0]), "bad": np.array([80.0, 40.0, 9.0])},
-        (5.04, 48.6),
-    ),
-    "lever_arm": lambda: figures.lever_arm(0.3, math.radians(10.0)),
-    "lever_arm, right": lambda: figures.lever_arm(0.5, math.radians(-20.0)),
-    "lever_arm, none": lambda: figures.lever_arm(0.3, 0.0),
     "beliefs": lambda: figures.beliefs(
         np.arange(4.0), {"all": (np.array([5.0, -9.0, 1.0, 1.0]), np.array([4.0, 4.0, 2.0, 1.0]))}
     ),
@@ -241,10 +233,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         f"docking ends {abs(math.degrees(graceful().heading_error[-1])):.2g} deg off at 5 cm, "
         "by the power 2."
     ],
-    "heading_distance": lambda: ["5 deg: good, after 2 m; bad, nowhere. A star marks", "48.6 deg"],
-    "lever_arm": lambda: ["10 deg too far to the left", "52.1 mm to the right"],
-    "lever_arm, right": lambda: ["20 deg too far to the right", "171 mm to the left"],
-    "lever_arm, none": lambda: ["An antenna 0.3 m ahead of the middle, its circle"],
     "beliefs": lambda: ["all: 4.0 to 1.0 deg, error inside 75 % of the time."],
     "last_turns": lambda: [
         "one 3.0 s without and 2.0 s with a last turn; two never without and 2.5 s with"
@@ -442,9 +430,6 @@ BAD = [
     ("a Score is needed, not a Gains", "challenge_paths", (GAINS,)),
     ("runs has 0 entries", "heading_powers", ({}, {})),
     ("seconds has 1 entries", "last_turns", ({"one": (1.0, 1.0)},)),
-    ("series has 0 entries, .* 1 to 5 are needed", "heading_distance", (MEMORY + 1, {}, (1, 1))),
-    ("mismatched lengths", "heading_distance", (np.ones(2), {"one": np.ones(3)}, (1, 1))),
-    ("arm = 0", "lever_arm", (0.0, 0.1)),
     ("runs has 0 entries, .* 1 to 4 are needed", "beliefs", (MEMORY, {})),
     ("mismatched lengths", "beliefs", (np.ones(2), {"one": (np.ones(3), np.ones(2))})),
 ]

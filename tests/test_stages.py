@@ -74,6 +74,7 @@ FLIPS = {  # what a stage's module takes from wmrlib, and the same with a flippe
     "standing_still fixes": lambda f: lambda: np.random.default_rng(1).normal(size=f().shape),
     "race_of_laws simulate": lambda f: lambda *a, law, **o: f(*a, law=OTHER.get(law, law), **o),
     "course_from_gps polar_error": lambda f: lambda a, b: f(a, b._replace(x=b.x.clip(2, 3))),
+    "course_from_gps advance": lambda f: lambda a, v, omega, dt: f(a, v + 1.0, omega, dt),
     "seam lyapunov": lambda f: lambda r, a, theta, h: f(r, a, max(theta, 0.0), h),
 }
 OTHER = {"corrected": "printed", "printed": "corrected"}

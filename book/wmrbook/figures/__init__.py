@@ -7,7 +7,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "style": ["COLOURS", "LINES", "Picture"],
         "paths": ["path"],
-        "facing": ["beliefs", "heading_distance", "lever_arm"],
+        "facing": ["beliefs"],
         "first_drive": ["dashboard", "twist"],
         "earth": [
             "chord",

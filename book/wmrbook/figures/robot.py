@@ -121,17 +121,14 @@ def _placed(pose: Pose, point) -> tuple[float, float]:
     return pose.x + cos * point[0] - sin * point[1], pose.y + sin * point[0] + cos * point[1]
 
 
-def draw_robot(axes: Axes, pose: Pose, b: float, r: float, outline: str = "") -> None:
-    """Draw the robot from above; b between its wheels, whose radius is r, in metres.
-
-    outline: a role in COLOURS, for a robot that is only thought of.
-    """
-    ink = COLOURS[outline or "ink"]
+def draw_robot(axes: Axes, pose: Pose, b: float, r: float) -> None:
+    """Draw the robot from above; b between its wheels, whose radius is r, in metres."""
+    ink = COLOURS["ink"]
     scale, turned = b / face.TRACK, Affine2D().rotate(pose.heading).translate(pose.x, pose.y)
     body, nose = (icon(part).transformed(Affine2D().scale(scale)) for part in ("body", "nose"))
-    looks = {"fill": False, "ec": ink} if outline else {"fc": COLOURS["robot"], "ec": ink}
+    looks = {"fc": COLOURS["robot"], "ec": ink, "lw": 1.5, "alpha": 0.6}
     for part in (body, nose):
-        axes.add_patch(PathPatch(part.transformed(turned), lw=1.5, alpha=0.6, **looks))
+        axes.add_patch(PathPatch(part.transformed(turned), **looks))
     # a wheel is 16 px long, and here as long as it is
     wheels = icon("wheels").transformed(Affine2D().scale(r / 8.0, scale) + turned)
     axes.add_patch(PathPatch(wheels, fc=ink, lw=0, zorder=3))

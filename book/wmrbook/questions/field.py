@@ -93,7 +93,7 @@ def along_a_route() -> tuple[str, list[Option], str]:
     return ask, cases(computed, options), why
 
 
-@question(14, "Stable, and wrong", "In the dock")
+@question(14, "Steady, and wrong", "In the dock")
 def in_the_dock() -> tuple[str, list[Option], str]:
     arm, bias = 0.6, math.radians(5.0)
     now = estimation.start(wmr.Pose(0.0, 0.0, 0.0), 1.0, 0.2)

@@ -18,7 +18,7 @@ export const CONTRACTS = {
   'live/two_bars': '6334ee4a',
   'live/window': 'e15e2e19',
   'stages/as_printed': 'decf7bce',
-  'stages/course_from_gps': '1a8e6725',
+  'stages/course_from_gps': 'dd6a0b0e',
   'stages/crooked_compass': '6a7571be',
   'stages/downhill': 'f18e95e1',
   'stages/first_drive': '092554ab',
