@@ -228,8 +228,7 @@ def _printed() -> str:
 
 def _crooked() -> str:
     module = sys.modules["wmrbook.stages.crooked_compass"]
-    where, law = (module.START, module.GOAL, GENTLE_GAINS), module.misled
-    run = simulate(*where, law=law, method="arc", dt=module.DT)
+    run = module.driven(bias=module.BIAS)
     return f"stops {100 * run.rho[-1]:.1f} cm from its goal, {off_heading(run):.0f}° off"
 
 

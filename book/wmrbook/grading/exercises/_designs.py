@@ -229,7 +229,7 @@ def longest_step(seconds: Any) -> str:
 
 @exercise
 def short_fence(answer: Any) -> str:
-    """11.3: the timeout and the top speed."""
+    """11.5: the timeout and the top speed."""
     timeout, speed = numbers("`answer`", answer, 2)
     hint = f"after {timeout:g} s the robot brakes: with one fix lost, the next comes after 0.4 s."
     expect(timeout > 0.4, hint)

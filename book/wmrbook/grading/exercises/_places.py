@@ -188,7 +188,7 @@ def _same_place(one: Sequence[float], other: Sequence[float]) -> bool:
 
 @exercise
 def three_readings(centre: Callable) -> str:
-    """11.2: centre(a, b, c), readings (x, y) on a circle, returns its centre."""
+    """11.4: centre(a, b, c), readings (x, y) on a circle, returns its centre."""
     bounds = (-40, 40), (-40, 40), (20, 50), (-3, 3), (0.2, 2.9), (0.2, 2.9)
     circles = [
         (middle, [_on_circle(middle, radius, turn + arc) for arc in (0.0, one, one + two)][::way])

@@ -19,7 +19,7 @@ export const CONTRACTS = {
   'live/window': 'e15e2e19',
   'stages/as_printed': 'decf7bce',
   'stages/course_from_gps': 'dd6a0b0e',
-  'stages/crooked_compass': '6a7571be',
+  'stages/crooked_compass': '1d6bda67',
   'stages/downhill': 'f18e95e1',
   'stages/first_drive': '092554ab',
   'stages/gps_points': 'c4e051c6',

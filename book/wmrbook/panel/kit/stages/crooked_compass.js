@@ -3,8 +3,9 @@
 import { DEGREES, ahead, endsOf, heldRun, inDegrees, stage, trackOf } from '../drawing.js';
 
 export default stage('crooked_compass', {
-  find({ start, goal, bias, arm }, { data: { gains, dt, radius, steps } }) {
-    const sight = (k, pose) => [...ahead(pose, arm), pose[2] + bias / DEGREES];
+  find({ start, goal, bias, arm, takes }, { data: { gains, dt, radius, steps } }) {
+    const sight = (k, pose) => [...ahead(pose, arm),
+      (takes === 'bearing' ? Math.PI / 2 - pose[2] : pose[2]) + bias / DEGREES];
     const run = heldRun({ start, goal, gains, dt, radius, steps, sight });
     return { run, sight, tracks: [trackOf(run, dt)] };
   },
