@@ -5,6 +5,7 @@ from functools import cache
 from pathlib import Path
 
 import nbformat
+import numpy as np
 import pytest
 import sympy as sp
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
@@ -19,7 +20,7 @@ from wmrlib import paper, symbolic
 FOUND = {
     Verdict.WRONG: {*("eq-23", "eq-26", "bearing", "y_error_at_start", "claim-tracking")},
     Verdict.TYPO: {
-        *("eq-10", "eq-24", "eq-25", "first-part", "second-part", "rho-i", "k-A"),
+        *("eq-10", "eq-18", "eq-24", "eq-25", "first-part", "second-part", "rho-i", "k-A"),
         *("claim-captions", "claim-reference", "claim-stable", "claim-limit"),
     },
     Verdict.OPEN: {
@@ -63,7 +64,7 @@ def test_everything_has_a_row_and_the_verdict_found_by_hand():
     assert PUBLISHED.keys() > INPUTS
     for verdict, items in FOUND.items():
         assert {item for item, row in all_rows().items() if row.verdict is verdict} == items
-    counts = {Verdict.HOLDS: 25, Verdict.TYPO: 11, Verdict.WRONG: 5, Verdict.OPEN: 7}
+    counts = {Verdict.HOLDS: 24, Verdict.TYPO: 12, Verdict.WRONG: 5, Verdict.OPEN: 7}
     assert audit.tally(list(all_rows().values())) == counts
     with pytest.raises(ValueError, match=r"group = 'tables' is not allowed"):
         audit.rows("tables")
@@ -143,6 +144,11 @@ def mended():
     rate = audit.slope(audit.steering())
     return {
         "eq-10": equation(10, sp.Matrix([*right_side(10)[:2], -right_side(10)[2]])),
+        "eq-18": lambda patched: patched.setattr(
+            row,
+            "PRINTED",
+            {**row.PRINTED, 18: sp.Eq(paper_symbols.V, row.PRINTED[18].rhs)},
+        ),
         "eq-23": equation(23, _ALPHA * symbolic.omega > _ALPHA * audit.steering() - _TURN * _ALPHA),
         "first-part": bracket("FIRST", right_side(21) - right_side(21).coeff(symbolic.L, 0)),
         "second-part": bracket("SECOND", right_side(21).coeff(symbolic.L, 0)),
@@ -282,6 +288,38 @@ def test_what_a_threshold_or_a_choice_decides_is_not_decided():
     assert audit.decide(lambda known: known > 1, over=[(1,), (2,)]) is Verdict.OPEN
     for stop, verdict in ((0.02, Verdict.WRONG), (0.03, Verdict.OPEN), (0.2, Verdict.HOLDS)):
         assert audit.decide(lambda radius, stop=stop: radius < stop, "arrival") is verdict
+
+
+def test_a_row_quotes_what_the_paper_prints_and_not_what_must_be_meant():
+    dot = "\\dot{\\theta}"
+    for item, quoted in (("eq-6", f"{dot}\\end"), ("eq-18", "$\\square ="), ("eq-24", "\\rho_{i}")):
+        assert quoted in all_rows()[item].says, item
+    assert all_rows()["eq-6"].says.count(dot) == 2  # a rate that is itself
+    assert "\\square" not in "".join(row.holds + row.why for row in all_rows().values())
+
+
+def test_a_point_ahead_of_the_axle_swings_sideways():
+    d, theta = sp.Symbol("d"), symbolic.theta
+    swing = equations.rolling(d) - equations.rolling()
+    left = sp.Matrix([-sp.sin(theta), sp.cos(theta), 0])
+    assert sp.simplify(swing - d * symbolic.omega * left) == sp.zeros(3, 1)
+
+
+@pytest.mark.parametrize("names", [(), ("theta",), ("alpha", "theta")])
+def test_an_unwrapped_angle_counts_on_and_the_others_do_not(names):
+    rho, gains = 2.0, paper.OUTDOOR_GAINS
+    turns = {"alpha": np.linspace(1.0, -20.0, 50), "theta": np.linspace(-2.0, 30.0, 50)}
+    law = audit.unwrapped("printed", *names)
+    for angles in zip(*turns.values(), strict=True):
+        seen = [float(wmr.wrap_angle(angle)) for angle in angles]
+        kept = [
+            angle if name in names else at
+            for name, angle, at in zip(turns, angles, seen, strict=True)
+        ]
+        expected = wmr.control_law(rho, *kept, gains, law="printed")
+        assert law(rho, *seen, gains) == pytest.approx(expected, abs=1e-9)
+    with pytest.raises(ValueError, match=r"angle = 'rho' is not allowed"):
+        audit.unwrapped("printed", "rho")
 
 
 # The table --------------------------------------------------------------------------------------

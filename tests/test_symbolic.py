@@ -138,7 +138,7 @@ def test_the_equations_against_the_model_and_each_other():
         "(25) is the printed law's": (symbolic.lyapunov_rate("printed"), e[25]),
     }
     assert [name for name, sides in holds.items() if not same(*sides)] == []
-    assert sp.Matrix([e[n] for n in (3, 4, 5)]) == e[6]
+    assert sp.Matrix([e[3], e[4], EQUATIONS[5].lhs]) == e[6]
     assert list(e[10]) == [e[7], e[9], -e[8]]
     assert not same(ours[symbolic.omega], e[24])
     point = {rho: 0.5, alpha: 0.4, theta: -2.0, k_rho: 2, k_alpha: 1, h: 0.3, v_max: 4, L: 1}

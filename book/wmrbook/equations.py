@@ -33,8 +33,9 @@ V, V_r, V_l, right_wheel, left_wheel, r, c, epsilon, br, zeta_x, zeta_y = sp.sym
     "V V_r V_l w_R w_L r c epsilon br zeta_x zeta_y", real=True
 )
 rho_i, k_A = sp.symbols("rho_i k_A", positive=True)  # noqa: N816
-UNDEFINED = MappingProxyType({rho_i: rho, k_A: k_alpha})
-"""From a symbol that the paper never defines to the one that we read in its place."""
+blank = sp.Symbol(r"\square", real=True)  # (18) begins with its "="
+UNDEFINED = MappingProxyType({rho_i: rho, k_A: k_alpha, blank: V})
+"""From a symbol that the paper never defines, or a blank, to the one that we read in its place."""
 _SINE, _COSINE = sp.sin(alpha), sp.cos(alpha)
 
 
@@ -52,7 +53,7 @@ def _equations() -> dict[int, sp.Basic]:
         5: sp.Eq(theta_rate, omega),
         6: sp.Eq(
             sp.Matrix([x_rate, y_rate, theta_rate]),
-            sp.Matrix([v * sp.cos(theta), v * sp.sin(theta), omega]),
+            sp.Matrix([v * sp.cos(theta), v * sp.sin(theta), theta_rate]),
         ),
         7: sp.Eq(rho_rate, -v * _COSINE),
         8: sp.Eq(theta_rate, v * _SINE / rho),
@@ -70,7 +71,7 @@ def _equations() -> dict[int, sp.Basic]:
         17: sp.Eq(
             zeta_y, sp.cos(lat1) * sp.sin(lat2) - sp.sin(lat1) * sp.cos(lat2) * sp.cos(dlong)
         ),
-        18: sp.Eq(V, rho**2 / (2 * L) + (alpha**2 + h * theta**2) / 2),
+        18: sp.Eq(blank, rho**2 / (2 * L) + (alpha**2 + h * theta**2) / 2),
         19: sp.Eq(V_rate, rho * rho_rate / L + alpha * alpha_rate + h * theta * theta_rate),
         20: sp.Eq(
             V_rate,
@@ -98,14 +99,19 @@ def _equations() -> dict[int, sp.Basic]:
 
 
 PRINTED = MappingProxyType(_equations())
-"""From the paper's number to the equation with the symbols that the paper prints."""
+"""From the paper's number to the equation with the symbols that the paper prints, in our notation.
+
+They are sympy relations; A is alpha, w is omega, 90 degrees are pi/2, theta_a is theta, log and
+long are longitudes, and (6) and (10) are multiplied out. The input of (6) is v and the rate of
+theta, and (18) has no left side.
+"""
 
 EQUATIONS = MappingProxyType(
     {number: equation.subs(UNDEFINED, simultaneous=True) for number, equation in PRINTED.items()}
 )
-"""The same with defined symbols: rho_i in (24) and (25) is read as rho, k_A in (26) as k_alpha.
+"""The same with defined symbols: rho_i in (24) and (25) is read as rho, k_A in (26) as k_alpha, and
+the left side that (18) lacks as V.
 
-They are sympy relations; A is alpha, 90 degrees are pi/2, and (6) and (10) are multiplied out.
 (10) contradicts (8), (23) does not follow from (21), (24) has cos A sin A twice, and (26) does not
 follow from (25).
 """

@@ -13,13 +13,14 @@ of them, and is not decided if they disagree.
 from __future__ import annotations
 
 from wmrbook.audit import claims, equations, proof
-from wmrbook.audit.claims import STEPS
+from wmrbook.audit.claims import STEPS, slowest_pole
 from wmrbook.audit.equations import polar_rates
 from wmrbook.audit.proof import near_goal, slope, steering
 from wmrbook.audit.published import PUBLISHED
 from wmrbook.audit.row import THRESHOLDS, Row, Verdict, decide, equivalent, fits
 from wmrbook.audit.slips import one_slip
 from wmrbook.audit.table import SOURCE, Place, Table, missing, places, tally
+from wmrbook.audit.wrapping import unwrapped
 from wmrlib.checks import choice
 
 __all__ = [
@@ -41,8 +42,10 @@ __all__ = [
     "polar_rates",
     "rows",
     "slope",
+    "slowest_pole",
     "steering",
     "tally",
+    "unwrapped",
 ]
 
 _PARTS = {

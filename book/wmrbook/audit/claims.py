@@ -17,6 +17,7 @@ from wmrbook.audit.proof import CLOSED, law_row, rising, slope, steering
 from wmrbook.audit.published import PUBLISHED
 from wmrbook.audit.row import THRESHOLDS, Row, Verdict, decide, equivalent, fits, latex, printed
 from wmrbook.ellipsoid import FLATTENING, SEMI_MAJOR_M, sphere_error
+from wmrbook.equations import theta_rate
 from wmrlib import paper
 from wmrlib.body import Wheels
 from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, haversine_distance, initial_bearing
@@ -258,10 +259,11 @@ def _captions() -> Row:
 def _reference() -> Row:
     """Whose theta (14) computes: that of the equation to which the paper points, or of another."""
     sight = polar_rates()[2]
-    rates = {"(6)": printed(6)[2], "(8)": printed(8), "(10)": printed(10)[2]}
+    by_5 = {theta_rate: printed(5)}  # (6) by itself gives theta no rate
+    rates = {"(6)": printed(6)[2].subs(by_5), "(8)": printed(8), "(10)": printed(10)[2]}
     meant = [name for name, rate in rates.items() if equivalent(rate, sight)]
     verdict = Verdict.HOLDS if "(6)" in meant else Verdict.TYPO if meant else Verdict.WRONG
-    text = f"In (6) $\\theta$ is the heading, with the rate ${latex(rates['(6)'])}$. "
+    text = f"In (6) $\\theta$ is the heading, with the rate ${latex(rates['(6)'])}$ by (5). "
     text += f"In (14) it is the line of sight, with the rate ${latex(sight)}$."
     whys = (
         "(6) is about the same angle.",

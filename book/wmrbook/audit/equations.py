@@ -8,7 +8,7 @@ import sympy as sp
 
 from wmrbook import equations as symbols
 from wmrbook.audit.published import PUBLISHED
-from wmrbook.audit.row import Row, Verdict, equivalent, finding, fits, printed
+from wmrbook.audit.row import Row, Verdict, equivalent, finding, fits, latex, printed
 from wmrbook.audit.slips import SAME, equation_row
 from wmrlib import paper, symbolic
 from wmrlib.geodesy import haversine_distance, local_position
@@ -33,14 +33,19 @@ def wheels() -> tuple[sp.Expr, sp.Expr]:
     return solution[v], solution[omega]
 
 
-def rolling() -> sp.Matrix:
-    """(x', y', heading'): no slip sideways, speed v forwards, and a nose that turns by omega."""
+def rolling(ahead: sp.Expr | int = 0) -> sp.Matrix:
+    """(x', y', heading'): no slip sideways, speed v forwards, and a nose that turns by omega.
+
+    (x, y) is in the middle of the axle, or some metres ahead of it.
+    """
     x, y = sp.symbols("x y")
     sideways = -_RIGHT_TURN * _NOSE
     velocity = sp.Matrix([x, y])
     solution = sp.solve([velocity.dot(_NOSE) - v, velocity.dot(sideways)], [x, y])
     spin = omega / _NOSE.diff(theta).dot(sideways)  # nose' = spin times its own left
-    return sp.trigsimp(sp.Matrix([solution[x], solution[y], spin]))
+    middle = sp.Matrix([solution[x], solution[y], spin])
+    swing = ahead * spin * _NOSE.diff(theta)
+    return sp.trigsimp(middle + sp.Matrix([*swing, 0]))
 
 
 def robot_rows() -> list[Row]:
@@ -51,19 +56,27 @@ def robot_rows() -> list[Row]:
         symbols.V_l: symbols.left_wheel * symbols.r,
     }
     rates = rolling()
-    in_6 = [equivalent(printed(6)[i], rates[i]) for i in range(3)]
+    by_5 = {symbols.theta_rate: printed(5)}
+    in_6 = [equivalent(printed(6)[i], rates[i]) for i in range(2)]
     by_lines = all(equivalent(printed(3 + i), rates[i]) for i in range(3))
     rigid = "The mean of the two wheels' speeds, from a rigid axle."
     as_1 = "With $V = w\\,r$ for each wheel it agrees with (1)."
-    matrix = "(3) to (5) in one matrix, multiplied out here."
+    matrix = "(3) to (5) in one matrix, multiplied out here. Its input is $[v, \\dot\\theta]$, "
+    matrix += "so its third row says $\\dot\\theta = \\dot\\theta$ until (5) puts $\\omega$ there."
+    d = sp.Symbol("d")
+    swing = rolling(d) - rates
+    middle = "Rolling without side slip, the point $a$ being the middle of the axle. "
+    middle += "With a point $d$ ahead of it ${}$ would be added."
+    heading = "$\\omega$ is the heading's rate; (2) gives it from the wheels."
     return [
         equation_row(1, speed, {}, rigid),
         equation_row(2, turning.subs(spins), {}, as_1),
         *(
-            equation_row(3 + i, rates[i], {"(6)": in_6[i]}, "Rolling without side slip.")
-            for i in range(3)
+            equation_row(3 + i, rates[i], {"(6)": in_6[i]}, middle.format(latex(swing[i])))
+            for i in range(2)
         ),
-        equation_row(6, rates, {"(3) to (5)": by_lines}, matrix),
+        equation_row(5, rates[2], {}, heading),
+        equation_row(6, rates, {"(3) to (5)": by_lines}, matrix, known=by_5),
     ]
 
 

@@ -18,6 +18,7 @@ from wmrbook.audit.row import (
     finding,
     formula,
     latex,
+    left_as_printed,
     printed,
 )
 from wmrbook.audit.slips import SAME, equation_row, judge
@@ -82,7 +83,7 @@ def energy_rows() -> list[Row]:
     in_20, in_21 = equivalent(printed(20), along), equivalent(printed(21), along)
     sign = "(7) to (9) put into (19). It has the sign of (8), not that of (10)."
     return [
-        _bowl_row(),
+        _bowl_row({"(19)": equation(19).lhs == equations.V_rate}),
         equation_row(19, chain, {"(20)": in_20}, f"The chain rule on (18). {_WISH}"),
         equation_row(20, along, {"(21)": in_21}, f"{sign} {_WISH}"),
         equation_row(21, along, {"(20)": in_20}, f"(20) with its terms collected. {_WISH}"),
@@ -93,7 +94,8 @@ def energy_rows() -> list[Row]:
     ]
 
 
-def _bowl_row() -> Row:
+def _bowl_row(needed: dict[str, bool]) -> Row:
+    """(18): a bowl, under the name that its left side has."""
     energy, state = printed(18), sp.Matrix([_STATE])
     hessian = sp.hessian(energy, _STATE)
     quadratic = (state * hessian * state.T)[0] / 2
@@ -104,12 +106,17 @@ def _bowl_row() -> Row:
     )
     if is_bowl:
         bowl = "Zero at the goal, positive elsewhere: a sum of squares with positive weights."
-        return finding(
-            18,
-            Verdict.HOLDS,
-            bowl,
-            "Each eigenvalue of its second derivatives is positive, so it is a bowl.",
-        )
+        why = "Each eigenvalue of its second derivatives is positive, so it is a bowl."
+        if left_as_printed(18) == equations.V:
+            return finding(18, Verdict.HOLDS, bowl, why)
+        bowl = f"The right side is sound. {bowl} {why}"
+        missing = "It has no left side"
+        wanting = [name for name, so in needed.items() if so]
+        if not wanting:
+            why = f"{missing}, and nothing else that is printed needs one."
+            return finding(18, Verdict.WRONG, bowl, why)
+        why = f"{missing}: one symbol is missing, $V$, and {wanting[0]} needs it for its $\\dot V$."
+        return finding(18, Verdict.TYPO, bowl, why)
     why = "An eigenvalue of its second derivatives is not positive."
     return finding(18, Verdict.WRONG, "Not positive definite.", why)
 
@@ -121,8 +128,9 @@ def _speed_row() -> Row:
     falls = push.subs(rho, 0) == 0 and bool(push.diff(rho).is_positive)
     if falls and sp.limit(push.subs(rho, far), far, sp.oo) == v_max:
         text = (
-            "The first bracket of (21) is then never positive, "
-            "and the speed never above $v_{\\max}$."
+            "The first bracket of (21) is then never positive, but zero at "
+            "$\\alpha = \\pm 90°$; the paper asks for negative, and speaks of a square of $\\rho$ "
+            "that is not there. The speed is never above $v_{\\max}$."
         )
         why = f"${latex(push)}$ is 0 at the goal and grows to $v_{{\\max}}$ far away."
         return finding(22, Verdict.HOLDS, text, why)

@@ -133,14 +133,19 @@ def as_printed(number: int) -> sp.Basic:
     return PRINTED[number].rhs
 
 
+def left_as_printed(number: int) -> sp.Basic:
+    """The left side of an equation as the paper prints it, `equations.blank` if there is none."""
+    return PRINTED[number].lhs
+
+
 def printed(number: int) -> sp.Basic:
     """The right side of `equation`."""
     return equation(number).rhs
 
 
 def finding(number: int, verdict: Verdict, holds: str, why: str) -> Row:
-    """The row of an equation."""
-    return Row(f"eq-{number}", f"({number})", formula(equation(number)), holds, verdict, why)
+    """The row of an equation, which quotes the symbols that the paper prints."""
+    return Row(f"eq-{number}", f"({number})", formula(PRINTED[number]), holds, verdict, why)
 
 
 _SPEEDING = symbolic.v_max * (1 - sp.exp(-symbolic.k_rho * symbolic.rho))

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache
+from types import MappingProxyType
 
 import numpy as np
 import sympy as sp
@@ -17,10 +18,17 @@ SAME = "Our derivation leads to the same expression."
 
 
 def equation_row(
-    number: int, derived: sp.Basic, wanted_by: Mapping[str, bool], note: str = ""
+    number: int,
+    derived: sp.Basic,
+    wanted_by: Mapping[str, bool],
+    note: str = "",
+    known: Mapping[sp.Basic, sp.Basic] = MappingProxyType({}),
 ) -> Row:
-    """The row of an equation whose right side is compared with a derivation."""
-    verdict, why = judge(printed(number), derived, wanted_by)
+    """The row of an equation whose right side is compared with a derivation.
+
+    known: what another printed equation says of a symbol in it.
+    """
+    verdict, why = judge(printed(number).subs(known), derived, wanted_by)
     if verdict is Verdict.HOLDS:
         note = note or "It is derived without the paper."
     else:
