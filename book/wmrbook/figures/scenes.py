@@ -19,7 +19,13 @@ _LOOKS = {
     "seen": (robot, "ghost"),
 }
 _ENDS = {"arrow": "-|>", "span": "<|-|>"}
-_NAMED_AT = {"v": (0, -38), "^": (0, 38), ">": (58, 0), "<": (-58, 0)}
+_NAMED_AT = {  # points from the middle, and where the name is aligned
+    "v": ((0, -38), "center"),
+    "^": ((0, 38), "center"),
+    ">": ((28, 0), "left"),
+    "<": ((-28, 0), "right"),
+}
+_TIP = 2.2  # of the picture's units, from a goal to the tip of its arrow, or a little more
 # The alternative text, and what is drawn: a robot's or a goal's x, y and heading in deg, where its
 # name stands, and its name if it has another; arrows with one end or two, from x, y to x, y, and
 # their text; lines and cables from point to point; names at x, y.
@@ -133,10 +139,14 @@ def _draw(axes: Axes, kind: str, numbers: list[float], words: list[str]) -> None
         x, y, heading = numbers
         draw, role = _LOOKS[kind]
         draw(axes, Pose(x, y, math.radians(heading)), role, 1.4, zorder=5)
-        axes.plot(x, y, alpha=0.0)  # so that there is room for it
+        angle, reach = math.radians(heading), _TIP * (kind == "goal")
+        axes.plot(  # so that there is room for it
+            [x, x + reach * math.cos(angle)], [y, y + reach * math.sin(angle)], alpha=0.0
+        )
         if words:
             name = " ".join(words[1:]) or kind
-            note(axes, name, (x, y), _NAMED_AT[words[0]], **letters)
+            offset, side = _NAMED_AT[words[0]]
+            note(axes, name, (x, y), offset, **letters | {"ha": side})
     elif kind == "circle":
         axes.add_patch(Circle((0.0, 0.0), *numbers, fill=False, ls="--", lw=1.5))
     elif kind == "wheels":
