@@ -132,11 +132,9 @@ CASES = {
     "route, one pose": lambda: figures.route(route("point")),
     "challenge_paths": lambda: figures.challenge_paths(score(0.128, 1.089, 1.42, 7.528)),
     "challenge_paths, wild": lambda: figures.challenge_paths(score(5.0, 0.1, 5.0, 20.0)),
-    "heading_powers": lambda: figures.heading_powers({"docking": graceful()}, {"docking": 2.0}),
     "beliefs": lambda: figures.beliefs(
         np.arange(4.0), {"all": (np.array([5.0, -9.0, 1.0, 1.0]), np.array([4.0, 4.0, 2.0, 1.0]))}
     ),
-    "last_turns": lambda: figures.last_turns({"one": (3.0, 2.0), "two": (math.nan, 2.5)}),
 }
 picture = cache(lambda name: CASES[name]())
 
@@ -229,14 +227,7 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "12 of them reached, with 21.81 points in the mean; "
         "the costliest is case 12, far behind, with 42.7"
     ],
-    "heading_powers": lambda: [
-        f"docking ends {abs(math.degrees(graceful().heading_error[-1])):.2g} deg off at 5 cm, "
-        "by the power 2."
-    ],
     "beliefs": lambda: ["all: 4.0 to 1.0 deg, error inside 75 % of the time."],
-    "last_turns": lambda: [
-        "one 3.0 s without and 2.0 s with a last turn; two never without and 2.5 s with"
-    ],
 }
 
 
@@ -360,20 +351,6 @@ def test_time_steps_draw_each_run_and_each_limit():
         assert any(set(line.get_xdata()) == limit for line in axes.lines)
 
 
-def test_the_thin_lines_slope_is_the_power():
-    (axes,) = axes_of("heading_powers")
-    for line in axes.get_lines():  # the run itself ends with it
-        down, left = (np.diff(np.log(it[-2:])) for it in (line.get_ydata(), line.get_xdata()))
-        assert down / left == pytest.approx(2.0, abs=0.2)
-
-
-def test_what_never_parks_has_a_cross_and_no_bar():
-    (axes,) = axes_of("last_turns")
-    assert [bar.get_height() for bar in axes.patches] == [3.0, 0.0, 2.0, 2.5]
-    crosses = [line.get_xdata().tolist() for line in axes.get_lines()]
-    assert crosses == [[pytest.approx(0.8)], []]
-
-
 def test_a_route_is_drawn_as_it_was_driven():
     """Arrows for the wanted headings, and a marker each for a stop, a pass and what was missed."""
     way, mixed = route("mixed").waypoints, route("mixed")
@@ -428,8 +405,6 @@ BAD = [
     ("counts has 0 entries", "verdicts", ({},)),
     ("a Route is needed, not a Pose", "route", (WAY,)),
     ("a Score is needed, not a Gains", "challenge_paths", (GAINS,)),
-    ("runs has 0 entries", "heading_powers", ({}, {})),
-    ("seconds has 1 entries", "last_turns", ({"one": (1.0, 1.0)},)),
     ("runs has 0 entries, .* 1 to 4 are needed", "beliefs", (MEMORY, {})),
     ("mismatched lengths", "beliefs", (np.ones(2), {"one": (np.ones(3), np.ones(2))})),
 ]
@@ -444,7 +419,6 @@ def test_a_run_without_a_sample_is_named_and_so_is_a_picture_without_a_drive():
         ("angles_over_time", (lost,), "runs[0]"),
         ("snapshots", one["moments"], "run"),
         ("figures_8_to_12", (several,), "runs['lost']"),
-        ("heading_powers", (several, {}), "runs['lost']"),
         ("inner_loops", ({"near": several, "far": several},), "cases['near']['lost']"),
     ]
     for name, arguments, culprit in cases:

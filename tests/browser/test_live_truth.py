@@ -188,26 +188,6 @@ def window(values, results, data) -> None:
     np.testing.assert_allclose(results["late"], late, atol=0.5)
 
 
-def race(values, results, data) -> None:
-    start = wmr.Pose(values["x"], values["y"], math.radians(values["heading"]))
-    wheels = wmr.Wheels(data["track"], data["most"])
-    options = {"dt": data["dt"], "duration": data["seconds"], "arrival_radius": data["radius"]}
-    for run in results["runs"]:
-        gains = wmr.Gains(**data["tuned"][run["law"]])
-        ours, nudged = (
-            wmr.simulate(begin, pose(data["goal"]), gains, law=run["law"], wheels=wheels, **options)
-            for begin in (start, start._replace(x=start.x + 1e-11))
-        )
-        assert len(run["x"]) == len(ours) or run["law"] != "corrected"
-        if len(nudged) != len(ours) or np.abs(nudged.x - ours.x).max() > 1e-8:
-            continue  # it magnifies rounding, as the printed law does on its unstable rest
-        assert run["arrived"] == (ours.outcome is wmr.Outcome.ARRIVED)
-        np.testing.assert_allclose(run["x"], ours.x, atol=1e-6)
-        assert run["left"] == pytest.approx(abs(ours.heading_error[-1]), abs=1e-6)
-        driven = np.maximum(-ours.v[:-1], 0.0).sum() * data["dt"]
-        assert run["back"] == pytest.approx(driven, abs=1e-6)
-
-
 TRUTH = {name: globals()[name] for name in NAMES}  # each has its own, of the same name
 
 

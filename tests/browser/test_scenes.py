@@ -61,14 +61,6 @@ def corners(results):
     return stopped[0] > passed[0], sharp[1] > passed[1], hardly[1] < 0.1
 
 
-def race(results):
-    backs = [{run["law"]: run["back"] for run in result["runs"]} for result in results]
-    yield backs[0]["barrier"] > 1.5
-    yield 0.1 < backs[1]["corrected"] < 0.5
-    yield backs[2]["graceful"] == 0.0
-    yield max(backs[3].values()) == 0.0
-
-
 @pytest.mark.parametrize("name", SCENES)
 def test_what_each_idea_says_is_so(emptied_page, name):
     thing, steps = getattr(live, name)(), SCENES[name]

@@ -30,6 +30,5 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "noise": ["memories"],
         "audit": ["verdicts"],
         "routes": ["challenge_paths", "route"],
-        "other_laws": ["heading_powers", "last_turns"],
     },
 )

@@ -21,6 +21,5 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "design": ["window"],
         "real_robot": ["silence"],
         "routes": ["corners", "passing"],
-        "other_laws": ["race"],
     },
 )

@@ -69,11 +69,5 @@ SCENES = {
         Step("sharper", "A sharper corner takes a faster turn.", {"x": 30.0, "y": -20.0}),
         Step("hardly a corner", "Hardly a corner, hardly a turn.", {"x": 4.0, "y": 12.0}),
     ),
-    "race": (
-        Step("barrier", "The goal is behind: the barrier law backs up to it.", {"law": "barrier"}),
-        Step("corrected", "The corrected law backs up by little, and turns.", {"law": "corrected"}),
-        Step("Graceful", "Graceful never does: it drives a loop."),
-        Step("goal ahead", "With the goal ahead none of them backs up.", {"x": -3.0, "y": -1.0}),
-    ),
 }
 """Of each figure that grows, its ideas."""

@@ -2,14 +2,31 @@
 
 from __future__ import annotations
 
-from wmrbook.live.other_laws import GOAL, NAMES, TUNED
 from wmrbook.live.parts import Choice
 from wmrbook.stages.parts import Question, Scene, Stage
-from wmrlib import Pose, Wheels, arrival, simulate
+from wmrlib import Gains, Pose, Wheels, arrival, gains_for, simulate
 
-START = Pose(4.0, 1.5, 0.0)  # the goal is behind it
+START, GOAL = Pose(4.0, 1.5, 0.0), Pose(0.0, 0.0, 0.0)  # the goal is behind it
 WHEELS, DT = Wheels(track_width=0.4, max_speed=0.5), 0.05  # s
+DESIGNED = gains_for(0.8, heading_rate=1.6, damping=1.0)
+TUNED = {
+    **dict.fromkeys(("corrected", "printed", "barrier"), DESIGNED),
+    "aicardi": Gains(0.8, 3.2, 4.0, 1.0),  # the same two numbers, kappa 4 and h 4
+    "graceful": Gains(1.0, 2.0, 3.0, 1.0),  # k_delta 2, k_phi 3
+}
+NAMES = {
+    "corrected": "the corrected law",
+    "printed": "the printed law",
+    "aicardi": "Aicardi's law",
+    "barrier": "the barrier law",
+    "graceful": "Graceful",
+}
 OTHERS = {law: name for law, name in NAMES.items() if law != "corrected"}
+DRIVES = {
+    "forwards": "forwards",
+    "turn": "with a last turn",
+    "backwards": "backwards",
+}
 
 
 def race_of_laws(scene: str = "whole") -> Stage:
@@ -21,9 +38,12 @@ def race_of_laws(scene: str = "whole") -> Stage:
 
     first = min(NAMES, key=time)
     ends = "The corrected law {ours}; {other} {theirs}."
+
+    def of_law(law: str, claim: str) -> Scene:
+        return Scene(f"{claim} {ends}", to={"law": law}, moved=ends, handles=("law",))
+
     scenes = {
-        "whole": Scene("Is another law better? " + ends),
-        "near": Scene("The last metre. " + ends, look="near"),
+        "whole": Scene("Is another law better? " + ends, handles=("law",)),
         "ask": Scene(
             ends,
             still=True,
@@ -33,9 +53,36 @@ def race_of_laws(scene: str = "whole") -> Stage:
                 NAMES[first],
                 {"law": first} if first in OTHERS else {},
             ),
+            handles=("law",),
+        ),
+        "aicardi": of_law(
+            "aicardi",
+            "Aicardi's law wants to drive faster the farther away its goal is, and the wheels "
+            f"stop it at {WHEELS.max_speed} m/s.",
+        ),
+        "barrier": of_law(
+            "barrier",
+            "No angle crosses half a turn under the barrier law. It drives {back} backwards.",
+        ),
+        "graceful": of_law(
+            "graceful", "Graceful drives {back} backwards, because its speed is never negative."
+        ),
+        "near": Scene("The last metre. " + ends, look="near", handles=("law",)),
+        "spot": Scene(
+            "Both robots turn on the spot at the end, as fast as their wheels allow. " + ends,
+            to={"law": "printed", "drives": "turn"},
+            moved=ends,
+        ),
+        "dock": Scene(
+            "Both robots back into the dock, so neither has to turn round. " + ends,
+            to={"drives": "backwards"},
+            moved=ends,
         ),
     }
-    knobs = {"law": Choice("graceful", OTHERS, "the other law", "against the corrected law")}
+    knobs = {
+        "law": Choice("graceful", OTHERS, "the other law", "against the corrected law"),
+        "drives": Choice("forwards", DRIVES, "the way of driving", "both drive"),
+    }
     limits = {"b": WHEELS.track_width, "max_speed": WHEELS.max_speed, "min_speed": 0.0}
     data = {"tuned": {law: it._asdict() for law, it in TUNED.items()}, "names": OTHERS}
     data |= {"limits": limits, "dt": DT, "radius": 0.05, "steps": round(60.0 / DT)}
