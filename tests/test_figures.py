@@ -40,15 +40,6 @@ def parked():
 
 
 @cache
-def near_goal_runs():
-    start = wmr.pose_from_polar(wmr.PolarError(math.log(2) / 2, math.pi / 4, 0.0), ORIGIN)
-    options = {"method": "continuous", "arrival_radius": 0.0, "duration": 6.0, "dt": 0.02}
-    return [
-        wmr.simulate(start, ORIGIN, GAINS, law=law, **options) for law in ("corrected", "printed")
-    ]
-
-
-@cache
 def route(kind):
     way = wmr.Pose(*np.array([(0, 0, 0.1), (25, 2, 0.8), (30, 30, 2.0), (0, 40, 3.0)], float).T)
     gains = wmr.Gains(0.4, 2.0, 1.0, 3.0)
@@ -109,7 +100,6 @@ CASES = {
     ),
     "angles_over_time": lambda: figures.angles_over_time(drive()),
     "angles_over_time of two": lambda: figures.angles_over_time([drive(), drive("aicardi")]),
-    "heading_errors": lambda: figures.heading_errors(near_goal_runs(), ["one", "two"]),
     "figures_8_to_12": lambda: figures.figures_8_to_12(
         {"one": drive(), "two": drive("printed", x_axis="north")}
     ),
@@ -285,13 +275,6 @@ def test_a_wrapped_angle_is_not_joined_across_its_jump():
     assert np.nanmax(np.abs(np.diff(drawn))) < 10.0
 
 
-def test_headings_are_not_wrapped():
-    _, wild = near_goal_runs()
-    drawn = axes_of("heading_errors")[0].lines[2].get_ydata()
-    np.testing.assert_allclose(drawn, np.degrees(wild.theta - wild.alpha))
-    assert drawn.max() > 180
-
-
 def test_the_papers_figures_are_drawn_from_the_runs_with_a_style_for_each():
     runs = {"one": drive(), "two": drive("printed", x_axis="north")}
     path, *fields = axes_of("figures_8_to_12")
@@ -388,7 +371,7 @@ BAD = [
     ("a Pose is needed, not a tuple", "path_choices", ({"one": WAY}, (0, 0, 0))),
     ("runs has 0 entries", "angles_over_time", ([],)),
     ("runs has 5 entries, .* 1 to 4 are needed", "path", ([0] * 5,)),
-    ("labels has 2 entries", "heading_errors", ([0], ["one", "two"])),
+    ("labels has 2 entries", "path", ([0], ["one", "two"])),
     ("runs has 0 entries, .* 1 to 5 are needed", "figures_8_to_12", ({},)),
     ("runs has 6 entries", "heading_to_go", (FIVE,)),
     (r"runs\['one'\] = 3 .* a Trajectory is needed", "figures_8_to_12", ({"one": 3},)),
@@ -415,7 +398,7 @@ def test_a_run_without_a_sample_is_named_and_so_is_a_picture_without_a_drive():
     several, one = {"far": drive(), "lost": lost}, {"run": (lost,), "moments": (lost, [0.0, 1.0])}
     cases = [
         *((name, one["run"], "run") for name in ("dashboard", "twist")),
-        *((name, ([drive(), lost],), "runs[1]") for name in ("path", "heading_errors")),
+        ("path", ([drive(), lost],), "runs[1]"),
         ("angles_over_time", (lost,), "runs[0]"),
         ("snapshots", one["moments"], "run"),
         ("figures_8_to_12", (several,), "runs['lost']"),

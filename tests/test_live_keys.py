@@ -37,7 +37,6 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "polar_angles polar_error": lambda f: lambda *a: f(*a)._replace(alpha=-f(*a).alpha),
     "half_turn simulate": lambda f: lambda a, b, k, **o: f(_turned(a), b, k, **o),
     "bowl simulate": _uphill,
-    "seam sweep": lambda f: lambda *a, **o: f(*a, **o | {"hysteresis": 0.4}),
     "two_bars control_law": lambda f: lambda *a: (-f(*a)[0], f(*a)[1]),
     "window modes": lambda f: lambda it: f(it._replace(k_alpha=4 * it.k_alpha, h=16 * it.h)),
     "silence rolled": lambda f: lambda v, timeout, brake: f(v, timeout, -brake),

@@ -178,7 +178,8 @@ def test_without_the_books_packages_each_chapters_first_cell_says_what_to_instal
     cells = [cell for name in CHAPTERS for cell in code(name)]
     sources = [*BOOK.glob("wmrbook/**/*.py")]
     text = "\n".join([cell.source for cell in cells] + [it.read_text("utf-8") for it in sources])
-    used = packages & set(re.findall(r"^(?:import|from) (\w+)", text, re.MULTILINE))
+    used = packages & set(re.findall(r"^ *(?:import|from) (\w+)", text, re.MULTILINE))
+    used.discard("z3")  # only chapter 13's helper imports it, when a proof is asked of it
     assert {"control", "sympy"} < used
     hidden = "import sys\n" + "\n".join(f"sys.modules[{it!r}] = None" for it in packages)
     tried = [

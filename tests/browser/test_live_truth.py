@@ -142,18 +142,6 @@ def bowl(values, results, data) -> None:
     assert results["height"] == pytest.approx(height[results["k"]], abs=AGREES)
 
 
-def seam(values, results, data) -> None:
-    start, robots = wmr.Pose(data["distance"], 0.0, math.pi), data["robots"]
-    seen = wmr.Receiver(sight=np.full(robots, math.radians(values["noise"])))
-    options = {"method": "arc", "dt": data["dt"], "arrival_radius": data["radius"]}
-    options |= {"hysteresis": values["hysteresis"], "seed": data["seed"]}
-    gains = wmr.Gains(**data["gains"])
-    ends = wmr.sweep(start, pose(data["goal"]), gains, receiver=seen, **options)
-    off = np.array([run["off"] for run in results["runs"]])
-    assert np.abs(wmr.wrap_angle(off - ends.heading_error)).max() < AGREES
-    assert results["lost"] == np.sum(np.abs(ends.heading_error) > math.pi / 2)
-
-
 def two_bars(values, results, data) -> None:
     def parts(alpha, theta):
         twist = {

@@ -360,6 +360,37 @@ def test_a_referees_scenes_say_what_wmrlib_computes(browser_page):
             assert truth in said.replace("\N{NO-BREAK SPACE}", " "), scene
 
 
+def test_the_scenes_of_the_last_chapter_say_what_wmrlib_computes(browser_page):
+    module = sys.modules["wmrbook.stages.seam"]
+    goal, start = module.GOAL, Pose(module.AWAY, 0.0, math.pi)
+    options = {"method": "continuous", "dt": 0.02, "arrival_radius": 0.01}
+
+    def words(scene: str, **places: object) -> str:
+        mounted(browser_page, stages.seam(scene), width=620).set(**places)
+        return _words(browser_page)
+
+    for name, gains in (("gentle", GENTLE_GAINS), ("paper", paper.OUTDOOR_GAINS)):
+        taken = simulate(start, goal, gains, **options).t[-1]
+        straight = simulate(start, goal._replace(heading=math.pi), gains, **options).t[-1]
+        said = words("soon", gains=name)
+        assert f"after {straight:.3g} s. Blue is there after {taken:.3g} s" in said
+        for apart, metres in module.BESIDE.items():
+            near = options | {"arrival_radius": metres / 100}
+            run = simulate(Pose(0.0, -metres, 0.0), goal, gains, **near)
+            swing = math.degrees(abs(run.theta - run.alpha).max())
+            assert f"up to {swing:.0f}° off" in words("beside", gains=name, apart=apart)
+    for facing, cusps in ((30.0, "once"), (95.0, "never"), (90.0, "never"), (0.0, "once")):
+        assert cusps in words("cusp", facing=facing)
+    sight, swarm = math.radians(module.NOISE), module.SWARM
+    options = {"method": "arc", "dt": swarm["dt"], "arrival_radius": swarm["radius"]}
+    options |= {"receiver": Receiver(sight=np.full(40, sight)), "seed": swarm["seed"]}
+    for hysteresis in (0.0, 0.05, 0.2):
+        options["hysteresis"] = hysteresis
+        ends = sweep(Pose(module.CLOSE, 0.0, math.pi), goal, paper.OUTDOOR_GAINS, **options)
+        lost = np.sum(np.abs(ends.heading_error) > math.pi / 2)
+        assert f"{lost} of 40" in words("hysteresis", hysteresis=hysteresis)
+
+
 @pytest.mark.parametrize(
     ("left", "right", "does"),
     [

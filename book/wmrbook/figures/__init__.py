@@ -17,7 +17,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         ],
         "robot": ["coordinate_system", "robot_loops"],
         "angles": ["angles_over_time", "path_choices", "third_angle", "velocity_split"],
-        "lyapunov": ["heading_errors"],
         "pose_to_pose": [
             "block_diagram",
             "endpoints",

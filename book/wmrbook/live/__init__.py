@@ -17,7 +17,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "earth": ["bearing", "flat_map"],
         "robot": ["one_step"],
         "angles": ["half_turn", "polar_angles"],
-        "lyapunov": ["bowl", "seam", "two_bars"],
+        "lyapunov": ["bowl", "two_bars"],
         "design": ["window"],
         "real_robot": ["silence"],
         "routes": ["corners", "passing"],

@@ -1,4 +1,4 @@
-"""Chapters 4 and 15: a number that never rises, the law that sees to it, and where theta jumps."""
+"""Chapter 4: a number that never rises, and the law that sees to it."""
 
 from __future__ import annotations
 
@@ -11,11 +11,9 @@ from wmrlib import (
     GENTLE_GAINS,
     PolarError,
     Pose,
-    Receiver,
     polar_rate,
     pose_from_polar,
     simulate,
-    sweep,
 )
 from wmrlib.control import control_law
 from wmrlib.paper import OUTDOOR_GAINS
@@ -24,8 +22,6 @@ GOAL = Pose(0.0, 0.0, 0.0)
 NEAR = 0.5  # m from the goal
 LOOK = (-30.0, 35.0)  # deg, yaw and tilt of the bowl at first
 ASKED = (0.0, 60.0)  # deg, alpha and theta
-FACING, NOISE = 0.5, 2.0  # m and deg, of the robots on the seam
-SWARM = {"robots": 40, "dt": 0.01, "radius": 0.05, "seed": 5, "steps": 1000}
 
 
 def bowl() -> Live:
@@ -124,46 +120,6 @@ def two_bars() -> Live:
                 "",
                 "The robot drives towards its goal, so the distance's part falls; and alpha is 0.",
                 "The robot drives towards its goal, so the distance's part falls.",
-            ),
-        ),
-    )
-
-
-def seam() -> Live:
-    """Robots that start on the seam and see their goal through noise; hysteresis mends it."""
-    start = Pose(FACING, 0.0, math.pi)
-    receiver = Receiver(sight=np.full(SWARM["robots"], math.radians(NOISE)))
-    options = {"method": "arc", "dt": SWARM["dt"], "arrival_radius": SWARM["radius"]}
-    ends = sweep(start, GOAL, OUTDOOR_GAINS, receiver=receiver, seed=SWARM["seed"], **options)
-    share = np.mean(np.abs(ends.heading_error) > math.pi / 2)
-    return Live(
-        "seam",
-        "With {noise} of noise and {hysteresis} of hysteresis {lost} "
-        "robots park over 90° off, the worst {worst}.",
-        {
-            "noise": Knob(NOISE, 0.0, 5.0, 0.1, "noise on the line of sight", "°", label="noise"),
-            "hysteresis": Knob(0.0, 0.0, 0.4, 0.05, "hysteresis", "rad", label="hysteresis"),
-        },
-        data={
-            **SWARM,
-            "distance": FACING,
-            "goal": list(GOAL),
-            "gains": OUTDOOR_GAINS._asdict(),
-        },
-        ask=choose(
-            "40 robots face their goal, but should look the other way: theta is 180°, read with 2° "
-            "of noise. How do they park?",
-            "Where theta jumps, each reading sends a robot round the other way, and its turns "
-            "cancel.",
-            answers={
-                "all properly": share < 0.1,
-                "over half of them wrong": 0.5 < share < 0.9,
-                "all of them wrong": share >= 0.9,
-            },
-            wrong=(
-                "The first reading does not decide: the next may say the opposite.",
-                "",
-                "Once noise has pushed a robot aside, it does turn.",
             ),
         ),
     )
