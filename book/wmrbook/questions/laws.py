@@ -59,7 +59,7 @@ def millimetre_beside() -> tuple[str, list[Option], str]:
     return ask, cases(computed, options), why
 
 
-@question(5, "Is it the law or its time step?", "Sampled ten times a second")
+@question(5, "On what does a sentence depend?", "Sampled ten times a second")
 def tenth_of_a_second() -> tuple[str, list[Option], str]:
     case = wmr.paper.outdoor()
 
@@ -87,7 +87,7 @@ def tenth_of_a_second() -> tuple[str, list[Option], str]:
     return ask, cases(computed, options), why
 
 
-@question(5, "Are the paper's sentences true?", "In the mirror")
+@question(5, "Which drive do they speak of?", "In the mirror")
 def mirror() -> tuple[str, list[Option], str]:
     alpha, theta, gains = 0.7, -1.1, wmr.paper.OUTDOOR_GAINS
     v, omega = wmr.control_law(3.0, alpha, theta, gains)

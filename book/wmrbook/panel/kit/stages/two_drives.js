@@ -1,8 +1,8 @@
 // Chapter 5: the paper's robot and another one, which both stop at the same distance.
 
 import {
-  DEGREES, cornerOf, driven, endOf, freshRun, gainsOf, goalFromNear, inDegrees, remembered, stage,
-  wrap, written,
+  DEGREES, cornerOf, driven, endOf, freshRun, gainsOf, goalFromNear, inDegrees, lengthText,
+  remembered, stage, wrap, written,
 } from '../drawing.js';
 
 const papers = remembered(freshRun), CLOSE = 60; // px a metre, seen from near
@@ -21,11 +21,10 @@ export default stage('two_drives', {
   },
   corner: (values, found, size) => cornerOf(size, MOST),
   say: ({ start, goal }, { yours, theirs }) => ({
-    yours: endOf(yours, goal), theirs: endOf(theirs, goal),
+    yours: endOf(yours, goal), theirs: endOf(theirs, goal), ...sharpestOf(theirs),
     distance: written(theirs.rho[0], 'm', 4), from: inDegrees(start[2], 0),
     to: inDegrees(goal[2], 0),
     east: written(goal[0] - start[0], 'm'), north: written(goal[1] - start[1], 'm'),
-    sharpest: written(Math.max(...theirs.omega.slice(0, theirs.n).map(Math.abs)), 'rad/s', 2),
   }),
   draw(pane, { goal }, found, { shows, poses: [, pose] }) {
     if (shows.includes('legs'))
@@ -50,6 +49,16 @@ export default stage('two_drives', {
       pane.angle(goal[0], goal[1], goal[2], off, inDegrees(Math.abs(off), 0), 'ghost', 112);
   },
 });
+
+/**
+ * How fast a robot turns at most, and how far it is from its goal then.
+ * @param {Run} run
+ */
+function sharpestOf({ omega, rho, n }) {
+  const rates = omega.slice(0, n).map(Math.abs), sharpest = Math.max(...rates);
+  return { sharpest: written(sharpest, 'rad/s', 2),
+    close: lengthText(rho[rates.indexOf(sharpest)], 2) };
+}
 
 /**
  * One name a leg, or both beside the goal when the legs are short.
