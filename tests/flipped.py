@@ -45,6 +45,7 @@ FLIPS = {  # the question: a formula behind it, what stands there, and what to m
     "is-it-parked": HEADING,
     "swapped-cables": (motion.wheel_speeds, "v - omega", "v + omega"),
     "bearing-for-heading": (motion.polar_from_pose, "sight - heading", "sight + heading"),
+    "course-from-fixes": (geodesy.bearing_angle, "direction(cos", "direction(-cos"),
     "at-the-corner": (routes.headings_along, "+ 0.5 * turn", "- 0.5 * turn"),
     "along-a-route": HEADING,
     "in-the-dock": (kalman.see_heading, "heading - state[2]", "state[2] - heading"),

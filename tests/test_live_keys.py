@@ -41,7 +41,6 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "window modes": lambda f: lambda it: f(it._replace(k_alpha=4 * it.k_alpha, h=16 * it.h)),
     "silence rolled": lambda f: lambda v, timeout, brake: f(v, timeout, -brake),
     "corners headings_along": lambda f: lambda x, y: -f(x, y),
-    "passing drive_route": lambda f: lambda p, g, **o: f(p, g, **(o | {"pass_radius": 1e9})),
 }
 
 

@@ -130,11 +130,6 @@ def corners(values, results, data) -> None:
     same_route(results["run"], poses, radii, wmr.Gains(**data["gains"]), values["stop"] == "stop")
 
 
-def passing(values, results, data) -> None:
-    gains = wmr.Gains(**data["gains"])
-    same_route(results["run"], data["poses"], (values["radius"], 0.05), gains, False)
-
-
 def bowl(values, results, data) -> None:
     gains = wmr.Gains(**data["gains"][values["choice"]])
     ours = same_run(results["run"], data["start"], data["goal"], gains, **ROLLING)

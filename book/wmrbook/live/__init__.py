@@ -20,6 +20,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "lyapunov": ["bowl", "two_bars"],
         "design": ["window"],
         "real_robot": ["silence"],
-        "routes": ["corners", "passing"],
+        "routes": ["corners"],
     },
 )

@@ -1,4 +1,4 @@
-"""Concept questions on chapters 11, 12 and 14: a real robot on the bench, routes, a filter."""
+"""Concept questions on chapters 11, 12 and 14: a real robot, logs and routes, a filter."""
 
 from __future__ import annotations
 
@@ -48,6 +48,27 @@ def bearing_for_heading() -> tuple[str, list[Option], str]:
     why = """It believes it looks north, with the goal abeam on its right: $\\cos\\alpha = 0$
         leaves no speed, $k_\\alpha\\alpha$ turns it right."""
     return ask, cases((sign(v, 0.05), sign(omega, 0.05)), options), why
+
+
+@question(12, "Which way did it go?", "A course from two fixes")
+def course_from_fixes() -> tuple[str, list[Option], str]:
+    north, east, lat = 1.0, 3.0, 60.0  # ten-thousandths of a minute, and degrees
+    a = wmr.GeoPoint(lat=lat, lon=10.0)
+    b = wmr.GeoPoint(lat=lat + north * 1e-4 / 60.0, lon=10.0 + east * 1e-4 / 60.0)
+    course = math.degrees(wmr.initial_bearing(a, b))
+    shorter = math.cos(math.radians(lat))
+    mistaken = {
+        "a minute of longitude taken to be as long as one of latitude": (north, east),
+        "counted from east": (east * shorter, north),
+        "longitude divided by the cosine": (north, east / shorter),
+        "the cosine of 60 radians": (north, east * math.cos(lat)),
+    }
+    wrong = {why: math.degrees(math.atan2(y, x)) % 360.0 for why, (x, y) in mistaken.items()}
+    ask = """At a latitude of 60 deg a receiver goes 0.0001 minutes of latitude to the north and
+        0.0003 minutes of longitude to the east. What is its course, clockwise from north?"""
+    why = """At 60 deg a minute of longitude is half as long as one of latitude: 1.5 parts to the
+        east for 1 to the north."""
+    return ask, numbers(course, wrong, "{:.0f} deg"), why
 
 
 @question(12, "A route is a chain of goals", "Which way at the corner?")

@@ -212,7 +212,7 @@ def _on_circle(middle: Sequence[float], radius: float, turn: float) -> tuple[flo
 
 @exercise
 def walk(keep: Callable) -> str:
-    """12.2: keep(fixes), of (seconds, east, north), those that can be walked to."""
+    """12.4: keep(fixes), of (seconds, east, north), those that can be walked to."""
     for seed in range(4):
         t, fixes = 0.0, []
         for a, b, seconds in drawn(seed, 60, (-1.0, 1.0), (0.0, 1.0), (0.4, 2.0)):
