@@ -391,6 +391,30 @@ def test_the_scenes_of_the_last_chapter_say_what_wmrlib_computes(browser_page):
         assert f"{lost} of 40" in words("hysteresis", hysteresis=hysteresis)
 
 
+@pytest.mark.parametrize("law", ["graceful", "printed"])
+def test_robots_back_into_a_dock_and_turn_at_the_end_as_wmrlib_does(browser_page, law):
+    """Backwards is forwards with both headings turned round; a last turn takes its time."""
+    stage = stages.race_of_laws("dock")
+    race, called = sys.modules["wmrbook.stages.race_of_laws"], dict(stage.setup["data"]["names"])
+    start, goal = (it._replace(heading=it.heading + math.pi) for it in (race.START, race.GOAL))
+    options = {"law": law, "method": "arc", "dt": race.DT, "wheels": race.WHEELS}
+    backed = simulate(start, goal, race.TUNED[law], **options)
+    ahead = simulate(race.START, race.GOAL, race.TUNED[law], **options)
+    width, fast = race.WHEELS.track_width, race.WHEELS.max_speed
+    spin = abs(ahead.heading_error[-1]) * width / (2 * fast)
+    turned = ahead.t[-1] + race.DT * math.ceil(spin / race.DT)
+    truths = {
+        "backwards": f"{backed.t[-1]:.1f} s, {off_heading(backed):.0f}°",
+        "turn": f"{turned:.1f} s, 0°",
+    }
+    for way, truth in truths.items():
+        stage = as_stored(stages.race_of_laws("dock"))
+        mounted(browser_page, stage, width=620).set(law=law, drives=way)
+        said = browser_page.locator(".stage-words[data-on=true]").text_content()
+        said = said.replace("\N{NO-BREAK SPACE}", " ")
+        assert f"{called[law]} stops after {truth}" in said, way
+
+
 @pytest.mark.parametrize(
     ("left", "right", "does"),
     [
