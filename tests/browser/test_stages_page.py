@@ -110,8 +110,8 @@ TRIED = """async ({ knobs, scenes, poses }) => {
     }
     const still = {};
     for (const { name, choices, low, high } of knobs) {
-        root.stage.show(scenes[0].name);
-        await look('as it opens');
+        const has = scenes.find(({ handles }) => !handles || handles.includes(name));
+        root.stage.show(has.name);
         const pictures = [];
         for (const k of choices ? choices.keys() : [low, (low + high) / 2, high]) {
             put({ name, choices }, k);
