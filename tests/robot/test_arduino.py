@@ -13,6 +13,7 @@ from arduino_run import COUNT, FAULTS, NEAR, SETTINGS, STEP, Lawn, drive
 import wmrlib as wmr
 from wmrlib import symbolic
 from wmrrobot import files, printing
+from wmrrobot.drive import REASONS
 from wmrrobot.sheets import Robot, sheet
 
 uno = pytest.mark.needs("arduino", "avr", "compiler", "libsimavr")
@@ -72,14 +73,27 @@ def test_a_fault_stops_it_or_passes(name):
     assert ran.rolled <= far or must == "parked"
 
 
-def bench(swapped=False):
-    """The lines of the bench test; its compass reads 1,000 ahead and 300 to the left, and iron."""
+def test_the_readme_numbers_the_reasons_as_the_log_does():
+    text = library()["README.md"].partition("## The log")[2].partition("\n## ")[0]
+    listed = re.findall(r"(\d+) ([a-z ]+)[,.]", text.partition("most often:")[2])
+    assert len(listed) == 9
+    for number, reason in listed:
+        assert REASONS[int(number)] == reason
+
+
+def bench(swapped=False, seconds=34.0, by_hand=(0.0, 0.0)):
+    """The lines of the bench test; its compass reads 1,000 ahead and 300 to the left, and iron.
+
+    In its 38th second somebody turns the wheels `by_hand`, so far [m].
+    """
     changes = (*SETTINGS, ("const bool BENCH = false", "const bool BENCH = true"))
     lawn, board = Lawn(NEAR, wmr.Pose(0.0, 0.0, 0.0), 1), Board(compiled(NEAR, changes))
     counted, text = np.zeros(2), b""
-    for _ in range(round(34.0 / STEP)):
+    for k in range(round(seconds / STEP)):
         duties = board.pins()[:2]
         counted += 2.0 / COUNT * np.array(lawn.roll(duties[::-1] if swapped else duties))
+        if 37.0 <= k * STEP < 38.0:
+            counted += 2.0 / COUNT * STEP * np.array(by_hand)
         text += board.run(STEP, Inputs(tuple(counted), (1600.0, -100.0)))
     return [list(map(int, line.split())) for line in text.decode().splitlines()]
 
@@ -113,3 +127,10 @@ def is_sound(rows):
 def test_the_bench_test_shows_the_signs():
     assert is_sound(bench())
     assert not is_sound(bench(swapped=True))
+
+
+@uno
+def test_after_the_bench_test_wheels_turned_by_hand_are_counted():
+    rows = np.array(bench(seconds=43.0, by_hand=(0.314, -0.1)))
+    assert not rows[11:, :2].any()
+    np.testing.assert_allclose(rows[-2:, 2:4], [[314, -100]] * 2, atol=3)

@@ -121,7 +121,8 @@ void bench() {
   static wmr_wheels told = {0.2f, 0, WMR_OK};
   static float rolled[2] = {0, 0};
   const uint8_t second = (uint8_t)(1 / MY_PERIOD);
-  if (periods == 2 * second) rolled[0] = rolled[1] = 0; // by then it has sped up
+  // by then it has sped up; after the last phase it counts on, for wheels turned by hand
+  if (periods == 2 * second && phase < 12) rolled[0] = rolled[1] = 0;
   rolled[0] += left.rolled(), rolled[1] += right.rolled();
   left.tell(told.left), right.tell(told.right);
   if (++periods < 3 * second) return;
