@@ -372,6 +372,8 @@ BAD = [
     ("runs has 0 entries", "angles_over_time", ([],)),
     ("runs has 5 entries, .* 1 to 4 are needed", "path", ([0] * 5,)),
     ("labels has 2 entries", "path", ([0], ["one", "two"])),
+    (r"labels = 'ab' is not allowed: a list with a str for each run", "path", ([0, 0], "ab")),
+    ("labels = .* a list with a str for each run", "path", ([0, 0], [1, 2])),
     ("runs has 0 entries, .* 1 to 5 are needed", "figures_8_to_12", ({},)),
     ("runs has 6 entries", "heading_to_go", (FIVE,)),
     (r"runs\['one'\] = 3 .* a Trajectory is needed", "figures_8_to_12", ({"one": 3},)),

@@ -167,5 +167,8 @@ def test_points_of_other_lengths_are_refused_and_their_order_cannot_be_mixed_up(
     two, three = wmr.GeoPoint(lat=[1.0] * 2, lon=0.0), wmr.GeoPoint(lat=[1.0] * 3, lon=0.0)
     with pytest.raises(ValueError, match=r"a\.lat has shape \(2,\), b\.lat has shape \(3,\)"):
         wmr.haversine_distance(two, three)
-    with pytest.raises(TypeError):
+    by_keyword = (
+        r"GeoPoint\(44\.37, 33\.27\) is not .*: GeoPoint\(lat=\.\.\., lon=\.\.\.\), by keyword"
+    )
+    with pytest.raises(TypeError, match=by_keyword):
         wmr.GeoPoint(44.37, 33.27)

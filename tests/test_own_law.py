@@ -99,6 +99,11 @@ def test_a_function_that_is_compiled_is_taken_as_it_is():
             r"law = 'my own' .*'corrected', .*, or a function \(rho, alpha, theta, g",
         ),
         (straight, "continuous", r"'continuous' .* 'arc' or 'euler' is needed with .* straight"),
+        (
+            lambda rho, alpha, theta: (1.0, alpha),
+            "arc",
+            r"law = <lambda>\(rho, alpha, theta\) is not allowed: a .*\(rho, alpha, theta, gains\)",
+        ),
         (lambda *_: 3.0, "arc", r"<lambda> at rho = .* = 3\.0 is not allowed: a pair of numbers"),
         (lambda *_: (None, 1.0), "arc", r"= \(None, 1\.0\) is not allowed: a pair of numbers"),
         (lambda *_: (math.nan, 1.0), "arc", r"= \(nan, 1\.0\) is not allowed: a pair of numbers"),

@@ -1,10 +1,14 @@
 """The examples of the library's pages, each by itself, as a reader copies it."""
 
 import ast
+import doctest
 import re
+from importlib import import_module
 
 import pytest
 from assignments import ROOT
+
+import wmrlib as wmr
 
 PAGES = sorted(path for path in (ROOT / "book").glob("api*.md") if path.stem != "api_robot")
 EXAMPLE = re.compile(r"```python\n(.*?)```", re.DOTALL)
@@ -35,6 +39,21 @@ def test_every_wish_in_the_table_has_an_example_of_imports_and_two_to_five_state
         imports = [it for it in statements if isinstance(it, ast.Import | ast.ImportFrom)]
         assert imports, section
         assert 2 <= len(statements) - len(imports) <= 5, section
+
+
+@pytest.mark.parametrize("module", ["wmrbook.figures.paths", "wmrbook.chapters.routes"])
+def test_the_examples_of_the_book_s_functions_on_these_pages_print_what_they_say(module):
+    outcome = doctest.testmod(import_module(module))
+    assert outcome.attempted > 0
+    assert outcome.failed == 0
+
+
+def test_every_function_and_type_that_the_library_offers_has_an_example():
+    stub = (ROOT / "wmrlib" / "__init__.pyi").read_text(encoding="utf-8")
+    offered = {name: getattr(wmr, name) for name in re.findall(r"from \.\w+ import (\w+)", stub)}
+    called = [name for name, value in offered.items() if callable(value)]
+    assert len(called) > 30
+    assert [name for name in called if ">>> " not in offered[name].__doc__] == []
 
 
 def test_the_pages_show_each_module_that_has_public_names_once():

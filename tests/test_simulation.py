@@ -339,7 +339,10 @@ BAD = [
     ({"wheels": wmr.Wheels(1.0, lag=-0.1)}, r"wheels\.lag = -0\.1 .* at least 0 is needed"),
     (LAGGING | {"wheels": wmr.Wheels(1.0, acceleration=1.0)}, "ideal wheels, or a lag and an arr"),
     (LAGGING | {"wheels": wmr.Wheels(1.0, lag=0.1, dead_band=0.1)}, "neither dead_band nor enc"),
-    (LAGGING | {"last_turn": wmr.LastTurn()}, "last_turn = .*: None, or method 'arc' or 'euler'"),
+    (
+        LAGGING | {"last_turn": wmr.LastTurn()},
+        r"last_turn = LastTurn\(.*: None, or method 'arc' or 'euler'",
+    ),
     ({"last_turn": wmr.LastTurn(), "arrival_radius": 0.0}, "with an arrival radius, is needed"),
     ({"last_turn": wmr.LastTurn(leave=np.array([2.0]))}, r"last_turn\.leave = .* one number is"),
     ({"last_turn": wmr.LastTurn(leave=0.9)}, r"last_turn\.leave = 0\.9 .* at least 1 is needed"),

@@ -543,7 +543,7 @@ def test_columns_are_known_by_many_names_and_units(read):
     for header in ("latitudeE7,longitudeE7", "lat_e7,lon_e7"):
         assert places(read(f"{header}\n335000000,442500000\n")) == ([33.5], [44.25])
     for header in ("lat (rad),lon (rad)", "position_lat,position_long"):
-        with pytest.raises(ValueError, match="does not name"):
+        with pytest.raises(ValueError, match="none of its first ten lines names"):
             read(f"{header}\n1,2\n")
 
 
@@ -573,20 +573,21 @@ def test_what_windows_and_spreadsheets_write_around_a_table_is_read(read):
             above = {"line above the names of the columns": (titles, 1)} if titles else {}
             assert dict(track.report.skipped) == above
     assert places(read(f"lat;lon\n{row[:15]}\n".encode("latin-1"))) == ([-33.5], [44.25])
-    with pytest.raises(ValueError, match=r"first line 'one' does not name"):
+    with pytest.raises(ValueError, match=r"none of its first ten lines names .* 'one'$"):
         read("one\n" * 10 + "lat,lon\n1,2\n")
 
 
 # Whatever a file holds
 
-NO_KIND = "it is neither NMEA, UBX nor GPX, and as a table"
+NO_KIND = "it is neither NMEA, UBX, GPX, GeoJSON nor gpsd, and as a table none"
 
 
 def test_a_file_without_a_position_says_why(read, tmp_path):
     for content, message in [
         *NO_GPX,
-        ("", NO_KIND),
-        ("x,y\n1,2\n", "first line 'x,y' does not name lat and lon"),
+        ("", "it is empty$"),
+        ("\n", f"{NO_KIND}.* longitude$"),
+        ("x,y\n1,2\n", f"{NO_KIND}.* names lat and lon, or .*; the first is 'x,y'$"),
         ("lat,lon\n", "it is CSV, but holds no position"),
         ("lat,lon\n-95,2", r"1 latitude not in -90 to 90 \(first in line 2\)$"),
     ]:
@@ -685,4 +686,8 @@ def test_bad_input_to_the_writers(tmp_path):
     for write, points, options, message in cases:
         with pytest.raises(ValueError, match=message):
             write(tmp_path / "new", points, **options)
+    for write in (wmr.write_gpx, wmr.write_geojson):
+        with pytest.raises(FileNotFoundError) as error:
+            write(tmp_path / "no folder" / "new.gpx", PAIR)
+        assert error.value.filename == str(tmp_path / "no folder" / "new.gpx")
     assert not [*tmp_path.iterdir()]

@@ -130,7 +130,7 @@ def test_a_file_without_a_position_says_why(read):
     for parts, message in [
         ((pvt(flags=0),), r"it is UBX, but 1 NAV-PVT without a fix \(first in byte 0\)$"),
         ((place(),), rf"it is NMEA, but 1 {NO_PLACE} \(first in byte 0\)$"),
-        ((pvt()[:-1],), "it is neither NMEA, UBX nor GPX"),
+        ((pvt()[:-1],), "it is neither NMEA, UBX, GPX, GeoJSON nor gpsd"),
         ((frame(KINDS["pvt"], bytes(83)),), "1 message of an unknown length"),
         ((b"\xb5b\x01\x07\xff\xff" * 10_000, OTHER), f"but 1.* {DAMAGED}"),
     ]:

@@ -72,9 +72,9 @@ def closed_loop(
 
     Returns
     -------
-    function of a time [s], on which nothing depends, and a state [m, rad, rad], or one a column;
-        it returns the rates [m/s, rad/s, rad/s] in the state's shape. With a law of your own, rho
-        must not be 0.
+    A function of a time [s], on which nothing depends, and a state [m, rad, rad], or one a column.
+    It returns the rates [m/s, rad/s, rad/s] in the state's shape. With a law of your own, rho must
+    not be 0.
 
     Raises
     ------

@@ -20,7 +20,8 @@ class Gains(NamedTuple):
 
     Parameters
     ----------
-    k_rho : float or array, 1/m ("aicardi": 1/s). How fast the speed falls near the goal.
+    k_rho : float or array, 1/m ("aicardi": 1/s). How near the goal the speed falls: at a distance
+        of 1/k_rho it is 63 % of v_max.
     k_alpha : float or array, 1/s ("graceful": k_delta, no unit). Steering towards the goal.
     h : float or array ("graceful": k_phi). Weight of the final heading.
     v_max : float or array, m/s. Speed limit.
@@ -28,6 +29,16 @@ class Gains(NamedTuple):
     Raises
     ------
     ValueError : for a negative gain, a v_max that is not positive, NaN or mismatched lengths.
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> gains = wmr.Gains(k_rho=1.0, k_alpha=2.0, h=2.0, v_max=0.8)
+    >>> gains._replace(v_max=0.5)  # the same gains at another speed
+    Gains(k_rho=1.0, k_alpha=2.0, h=2.0, v_max=0.5)
+    >>> wmr.Gains(k_rho=1.0, k_alpha=-2.0, h=2.0)
+    Traceback (most recent call last):
+    ValueError: k_alpha = -2.0 is not allowed: a finite number at least 0 is needed
     """
 
     k_rho: Real
@@ -54,6 +65,14 @@ class KanayamaGains(NamedTuple):
     Raises
     ------
     ValueError : for a negative gain, k_y = 0 or NaN.
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> gains = wmr.KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
+    >>> run = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, gains, law="kanayama")
+    >>> print(f"{wmr.residual(run):.3f} m behind")
+    0.000 m behind
     """
 
     k_x: Real
@@ -76,6 +95,14 @@ class LinearGains(LinearFields):
     Raises
     ------
     ValueError : for another shape or NaN.
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> gains = wmr.LinearGains([[1.0, 0.0, 0.0], [0.0, 2.0, 2.0]])
+    >>> run = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, gains, law="linear")
+    >>> print(f"{wmr.residual(run):.3f} m behind")
+    0.000 m behind
     """
 
     __slots__ = ()

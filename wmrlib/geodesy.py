@@ -11,13 +11,14 @@ import numpy as np
 
 from wmrlib.checks import Real, instance, plain, real, reals, same_shape, scalar
 from wmrlib.elementary import direction, elementwise, root, sincos
-from wmrlib.records import record
+from wmrlib.records import by_keyword, record
 
 EARTH_RADIUS_M = 6_371_000.0
 """The mean Earth radius R of equation (11), in metres."""
 
 
 @record
+@by_keyword
 @dataclass(frozen=True, kw_only=True, slots=True)
 class GeoPoint:
     """A point on the Earth, or many; by keyword, so that the order can't be mixed up.
@@ -29,6 +30,14 @@ class GeoPoint:
     Raises
     ------
     ValueError : a value out of range, NaN or mismatched lengths
+    TypeError : positional arguments
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> town = wmr.GeoPoint(lat=-33.9, lon=18.4)  # south and west are negative
+    >>> wmr.GeoPoint(lat=[52.1, 52.2], lon=13.4).lat  # two points on one meridian
+    array([52.1, 52.2])
     """
 
     lat: Real
@@ -132,6 +141,15 @@ def destination_point(
     Raises
     ------
     ValueError : NaN, a negative distance, a radius that is not positive, or mismatched lengths
+
+    Examples
+    --------
+    >>> import math
+    >>> import wmrlib as wmr
+    >>> gate = wmr.GeoPoint(lat=48.1497, lon=11.5678)
+    >>> tree = wmr.destination_point(gate, distance=100.0, bearing=math.radians(90))
+    >>> print(f"{tree.lat:.6f}, {tree.lon:.6f}")  # 100 m to the east
+    48.149700, 11.569148
     """
     # https://www.movable-type.co.uk/scripts/latlong.html, with an atan2 in place of its asin
     instance("a", a, GeoPoint)

@@ -25,11 +25,19 @@ class Pose(NamedTuple):
     Parameters
     ----------
     x, y : float or array, m. East and north.
-    heading : float or array, rad from east, counter-clockwise.
+    heading : float or array, rad from east, counter-clockwise; pi/2 - bearing.
 
     Raises
     ------
     ValueError : for a value that is not finite, or mismatched lengths.
+
+    Examples
+    --------
+    >>> import math
+    >>> import wmrlib as wmr
+    >>> parked = wmr.Pose(x=2.0, y=1.0, heading=math.radians(90))  # to the north
+    >>> wmr.Pose([0.0, 1.0, 2.0], 0.0, 0.0).x  # three poses side by side
+    array([0., 1., 2.])
     """
 
     x: Real
@@ -43,6 +51,12 @@ class PolarError(NamedTuple):
 
     rho: the distance, m; alpha (the paper's A), theta: the line of sight counted from the robot's
     and from the goal's heading, rad, in (-pi, pi].
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> wmr.polar_error(wmr.Pose(0.0, 0.0, 0.5), goal=wmr.Pose(2.0, 0.0, 0.25))
+    PolarError(rho=2.0, alpha=-0.5, theta=-0.25)
     """
 
     rho: Real
@@ -52,7 +66,19 @@ class PolarError(NamedTuple):
 
 @record
 class Reference(NamedTuple):
-    """A moving goal: its pose (m, m, rad) and its twist (m/s, rad/s)."""
+    """A moving goal: its pose (m, m, rad) and its twist (m/s, rad/s).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import wmrlib as wmr
+    >>> def eastwards(t):  # at 0.5 m/s, for `wmr.track`
+    ...     still = np.zeros_like(t)
+    ...     return wmr.Reference(0.5 * t, still, still, 0.5 + still, still)
+    >>> run = wmr.track(eastwards, wmr.Pose(0.0, 1.0, 0.0), wmr.GENTLE_GAINS)
+    >>> print(f"{wmr.residual(run):.2f} m behind")
+    0.67 m behind
+    """
 
     x: Real
     y: Real
@@ -98,11 +124,18 @@ def twist_to_wheels(v: Real, omega: Real, track_width: float) -> tuple[Real, Rea
 
     Returns
     -------
-    left, right : float or array, m/s
+    left, right : float or array, m/s; (1) and (2) solved for V_l = v - omega b/2 and
+        V_r = v + omega b/2
 
     Raises
     ------
     ValueError : for NaN, a width that is not positive, or mismatched lengths.
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> wmr.twist_to_wheels(v=0.0, omega=2.0, track_width=0.5)  # a turn on the spot
+    (-0.5, 0.5)
     """
     v, omega, width = reals(above_0=("track_width",), v=v, omega=omega, track_width=track_width)
     return motion.wheel_speeds(v, omega, width)
@@ -147,6 +180,13 @@ def pose_rate(heading: Real, v: Real, omega: Real) -> tuple[Real, Real, Real]:
     Raises
     ------
     ValueError : for NaN or mismatched lengths.
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> east, north, turn = wmr.pose_rate(heading=0.0, v=2.0, omega=0.5)
+    >>> print(east, north, turn)
+    2.0 0.0 0.5
     """
     heading, v, omega = reals(heading=heading, v=v, omega=omega)
     return v * np.cos(heading), v * np.sin(heading), omega
@@ -228,6 +268,14 @@ def pose_from_polar(polar: PolarError, goal: Pose) -> Pose:
     Raises
     ------
     ValueError : for rho < 0, NaN or mismatched lengths.
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> goal = wmr.Pose(3.0, 4.0, 0.0)
+    >>> ahead = wmr.PolarError(rho=2.0, alpha=0.0, theta=0.0)
+    >>> wmr.pose_from_polar(ahead, goal)  # 2 m before the goal, and it faces the goal
+    Pose(x=1.0, y=4.0, heading=0.0)
     """
     named = instance("polar", polar, PolarError)._asdict() | _fields(goal=goal)
     return Pose(*elementwise(motion.pose_of_error, *reals(at_least_0=("rho",), **named)))
@@ -250,6 +298,14 @@ def polar_rate(rho: Real, alpha: Real, v: Real, omega: Real) -> tuple[Real, Real
     Raises
     ------
     ValueError : unless rho > 0 (the goal has no direction when on it), NaN, mismatched lengths.
+
+    Examples
+    --------
+    >>> import math
+    >>> import wmrlib as wmr
+    >>> rates = wmr.polar_rate(rho=2.0, alpha=math.pi / 2, v=1.0, omega=0.0)  # the goal abeam
+    >>> print([round(rate, 3) for rate in rates])  # the line of sight turns at 0.5 rad/s
+    [-0.0, 0.5, 0.5]
     """
     rho, alpha, v, omega = reals(above_0=("rho",), rho=rho, alpha=alpha, v=v, omega=omega)
     return elementwise(motion.polar_closing_rate, rho, alpha, v / rho, omega)

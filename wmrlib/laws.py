@@ -6,6 +6,7 @@ panel's JavaScript and menu, and the C header.
 
 from __future__ import annotations
 
+import inspect
 import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -256,7 +257,8 @@ def tuning_of(gains, law: str | Callable, laws: dict[str, int]) -> tuple[Any, in
     return numbers, code
 
 
-OWN_IS_WELCOME = ", or a function (rho, alpha, theta, gains) -> (v, omega),"
+_OWN = "a function (rho, alpha, theta, gains) -> (v, omega)"
+OWN_IS_WELCOME = f", or {_OWN},"
 
 
 _TEXT = str, bytes, bytearray
@@ -285,7 +287,20 @@ class OwnLaw(NamedTuple):
 
 
 def own_law(law: Callable) -> Any:
-    """A law of one's own as the loops take it: as it is if numba has compiled it."""
+    """A law of one's own as the loops take it: as it is if numba has compiled it.
+
+    ValueError shows the parameters of a function that does not take these four.
+    """
+    try:
+        signature = inspect.signature(getattr(law, "py_func", law))
+    except (TypeError, ValueError):  # of a function in C, for example
+        signature = None
+    try:
+        if signature:
+            signature.bind("rho", "alpha", "theta", "gains")
+    except TypeError:
+        given = f"law = {law_name(law)}{signature}"
+        raise ValueError(f"{given} is not allowed: {_OWN} is needed") from None
     return law if compiled_by_its_user(law) else OwnLaw(law)
 
 

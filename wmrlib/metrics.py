@@ -58,6 +58,13 @@ def residual(trajectory: Trajectory, last: float = 5.0) -> float:
     Raises
     ------
     ValueError : a trajectory without a sample, or `last` not positive
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> run = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS)
+    >>> print(f"{wmr.residual(run, last=10.0):.2f} m")
+    0.09 m
     """
     run = with_samples("trajectory", trajectory)
     late = run.t >= run.t[-1] - scalar("last", last, above=0.0)

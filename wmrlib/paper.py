@@ -58,6 +58,14 @@ def outdoor(x_axis: str = "east") -> Scenario:
     Raises
     ------
     ValueError : another name
+
+    Examples
+    --------
+    >>> import math
+    >>> import wmrlib as wmr
+    >>> start, goal, gains, dt = wmr.paper.outdoor()
+    >>> print(f"from {math.degrees(start.heading):.0f} to {math.degrees(goal.heading):.0f} deg")
+    from 72 to -60 deg
     """
     east, north = local_position(GPS_POINT_1, GPS_POINT_2)
     x, y = (east, north) if choice("x_axis", x_axis, ("east", "north")) == "east" else (north, east)
@@ -79,6 +87,12 @@ def circle(t: Real) -> Reference:
     Raises
     ------
     ValueError : NaN
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> print(wmr.paper.circle([0.0, 10.0, 20.0]).x.round(2))  # half a turn, in m
+    [ 0. -4. -8.]
     """
     return Reference(*elementwise(circle_at, real("t", t)))
 

@@ -1,8 +1,9 @@
-"""A short repr for records of arrays, and a comparison that returns one bool."""
+"""A short repr for records of arrays, a comparison that returns one bool, and fields by keyword."""
 
 from __future__ import annotations
 
 import re
+from functools import wraps
 from typing import Any, TypeVar
 
 import numpy as np
@@ -22,6 +23,24 @@ def record(kind: Kind) -> Kind:
     changed.__repr__ = short_repr
     changed.__eq__ = same
     changed.__ne__ = different
+    return kind
+
+
+def by_keyword(kind: Kind) -> Kind:
+    """Let the error say so if the fields of a dataclass are not given by keyword."""
+    changed: Any = kind
+    init = changed.__init__
+
+    @wraps(init)
+    def checked_init(self, *numbers: Any, **fields: Any) -> None:
+        if numbers:
+            names = list(changed.__dataclass_fields__)
+            given = f"{kind.__name__}({', '.join(map(_text, numbers))})"
+            needed = f"{kind.__name__}({', '.join(f'{name}=...' for name in names)})"
+            raise TypeError(f"{given} is not allowed: {needed}, by keyword, is needed")
+        init(self, **fields)
+
+    changed.__init__ = checked_init
     return kind
 
 

@@ -25,6 +25,14 @@ class Outcome(Enum):
     """The outcome of a run; its value is a phrase to show.
 
     ARRIVED, TIMED_OUT or DIVERGED; of `track`, COMPLETED or DIVERGED.
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> start, goal, gains, _ = wmr.paper.outdoor()
+    >>> run = wmr.simulate(start, goal, gains, duration=5.0)
+    >>> print(run.outcome is wmr.Outcome.ARRIVED, run.outcome.value, sep=": ")
+    False: did not arrive within the duration
     """
 
     ARRIVED = "arrived within the arrival radius"
@@ -76,6 +84,15 @@ class Trajectory(ReadOnly):
     goal : Pose, of arrays if it moves
     gains, law, method : as passed in; None, None and "poses" where `of_poses` made the run
     peak_omega, path_length : float, rad/s and m, see Arrival; between the samples too
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> start, goal, gains, _ = wmr.paper.outdoor()
+    >>> run = wmr.simulate(start, goal, gains)
+    >>> late = run.t > 10.0  # the samples after 10 s
+    >>> print(f"{run.rho[late].max():.1f} m to go, at {run.v[late].max():.1f} m/s at most")
+    17.9 m to go, at 4.0 m/s at most
     """
 
     t: np.ndarray

@@ -83,6 +83,14 @@ def simulate(
     ...     print(f"{run.t[-1]:.1f} s, {math.degrees(run.heading_error[-1]):.1f} deg off")
     15.5 s, -27.2 deg off
     23.1 s, 2.1 deg off
+
+    A law of your own, which ignores the goal's heading:
+
+    >>> def towards(rho, alpha, theta, turn):
+    ...     return min(1.0, 2.0 * rho), turn * alpha
+    >>> run = wmr.simulate(start, wmr.Pose(5.0, 3.0, 0.0), 1.5, law=towards)
+    >>> print(run.outcome.value)
+    arrived within the arrival radius
     """
     begin, end = runs.single_pose("start", start), runs.single_pose("goal", goal)
     target = end.x, end.y, wrap(end.heading)

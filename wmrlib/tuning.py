@@ -87,6 +87,8 @@ def modes(gains: Gains, law: str = "corrected") -> Modes:
 def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> Real:
     """Return the longest time step with which the robot still settles in its goal's pose.
 
+    It is a limit, at which the robot only just settles: take a fifth of it or less.
+
     For "euler" and "arc" by Jury's conditions, derived in chapter 8: beyond it oscillations no
     longer fade, or the nose swings to and fro, or the robot drives past the goal. "polar_euler" is
     Euler's method for (7)-(9); a step multiplies each mode by 1 + pole dt.
@@ -140,9 +142,13 @@ def gains_for(
 
     Parameters
     ----------
-    distance_rate, v_max : float or array, 1/s and m/s
-    natural_frequency, heading_rate : float or array, rad/s and 1/s; of the angles, either of them
-    damping : float or array, ratio; beside either, by default 1
+    distance_rate, v_max : float or array, 1/s and m/s. Near the goal the distance falls as
+        exp(-distance_rate t), to 2 % in about 4/distance_rate; from far away the robot also needs
+        the time that the way takes at v_max.
+    natural_frequency, heading_rate : float or array, rad/s and 1/s; of the angles, either of them.
+        With a damping of 1 both are the same. A heading_rate above the distance_rate lets the
+        heading settle before the robot is there.
+    damping : float or array, ratio; beside either, by default 1, the least that does not swing
     kappa, h : float or array, no unit; instead of them, a point of the window 2 < kappa < 1 + h,
         where the heading settles faster than the distance; kappa is k_alpha/distance_rate
 

@@ -12,6 +12,8 @@ from wmrlib.tracks import gpx, jsons, nmea, tables, ubx
 from wmrlib.tracks.fixes import Count, Fixes, Report, Reported
 from wmrlib.tracks.writing import write_geojson, write_gpx
 
+_NO_FORMAT = "it is neither NMEA, UBX, GPX, GeoJSON nor gpsd"
+
 __all__ = ["Count", "Report", "Track", "read_track", "write_geojson", "write_gpx"]
 
 
@@ -21,11 +23,12 @@ class Track:
 
     `t` is in s since the first position that has a time, NaN where there is none, and increases
     within a segment of GPX or GeoJSON and in the whole of another file. `source` is "NMEA", "UBX",
-    "GPX", "GeoJSON", "gpsd" or "CSV". The other arrays hold the receiver's own reports, NaN where
-    there is none: `quality` of the fix as in GGA (1 plain, 2 differential or SBAS, 3 precise,
-    4 RTK fixed, 5 RTK float); `satellites` in use; `hdop`; `speed` in m/s and `course` over ground
-    in rad clockwise from north; `heading`, so too, of the line from one antenna to another;
-    `accuracy`, its own estimate of the error in the plane, in m.
+    "GPX", "GeoJSON", "gpsd" or "CSV". `points` is a GeoPoint of arrays, `report` a `Report`, and
+    the length of the track is the number of its positions. The other arrays hold the receiver's own
+    reports, NaN where there is none: `quality` of the fix as in GGA (1 plain, 2 differential or
+    SBAS, 3 precise, 4 RTK fixed, 5 RTK float); `satellites` in use; `hdop`; `speed` in m/s and
+    `course` over ground in rad clockwise from north; `heading`, so too, of the line from one
+    antenna to another; `accuracy`, its own estimate of the error in the plane, in m.
 
     Raises
     ------
@@ -79,17 +82,21 @@ class Track:
 def read_track(path: str | os.PathLike) -> Track:
     """Read positions from NMEA, UBX, GPX, GeoJSON, gpsd or a CSV table; the content tells which.
 
-    NMEA: GGA of every talker, and for an epoch without one its GNS, RMC or GLL; each epoch once, by
-    its best fix; not where the most trusted kind says that there is no fix; checksum needed.
-    UBX, alone or mixed with NMEA: NAV-PVT, of its epoch NAV-HPPOSLLH's digits, NAV-RELPOSNED's
-    heading and NAV-DOP's hdop; in a file without NAV-PVT the sentences. It takes pyubx2.
-    GPX: the track points, or else the route's, or else the waypoints (without their times); of two
-    elements of one name the point's own. GeoJSON: the lines, or else the points. gpsd: its TPV.
-    CSV: one of the first ten lines names the columns: lat or latitude; lon, lng, long or longitude,
-    in degrees (33.27, 33.27 N or "33,27") or e7; optionally N/S and E/W; t, time_s or time_ms,
-    or time in ISO 8601, with a date (2026-03-01) beside it or not; valid, fix, quality, status or
-    MAVLink's fix_type; satellites, hdop, accuracy, speed and course, but no heading. Of several
-    columns the best is used, and the report names the others.
+    - NMEA: GGA of every talker, and for an epoch without one its GNS, RMC or GLL; each epoch once,
+      by its best fix; not where the most trusted kind says that there is no fix. Each sentence
+      needs its checksum.
+    - UBX, alone or mixed with NMEA: NAV-PVT, of its epoch NAV-HPPOSLLH's digits, NAV-RELPOSNED's
+      heading and NAV-DOP's hdop; in a file without NAV-PVT the sentences. It takes pyubx2.
+    - GPX: the track points, or else the route's, or else the waypoints (without their times); of
+      two elements of one name the point's own.
+    - GeoJSON: the lines, or else the points.
+    - gpsd: its TPV.
+    - CSV: one of the first ten lines names the columns: lat or latitude; lon, lng, long or
+      longitude, in degrees (33.27, 33.27 N or "33,27") or e7; optionally N/S and E/W; t, time_s or
+      time_ms, or time in ISO 8601, with a date (2026-03-01) beside it or not; valid, fix, quality,
+      status or MAVLink's fix_type; satellites, hdop, accuracy (m), course (degrees), and speed with
+      its unit, such as speed_m_s, speed_kmh or speed_kn; but no heading. Of several columns the
+      best is used, and the report names the others.
 
     Where times do not increase, the longest run that does is used, and in a step of whole days
     while the clock goes on the date was wrong. Of a clock that shows only minutes, or stands, t
@@ -104,7 +111,7 @@ def read_track(path: str | os.PathLike) -> Track:
 
     Returns
     -------
-    Track, whose `report` counts each line that is not used, by its reason
+    Track, whose `report`, a `Report`, counts each line that is not used, by its reason
 
     Raises
     ------
@@ -113,8 +120,15 @@ def read_track(path: str | os.PathLike) -> Track:
     Examples
     --------
     >>> import wmrlib as wmr
-    >>> wmr.read_track("book/wmrbook/data/ublox5-standing.nmea")
+    >>> import wmrbook.data
+    >>> log = wmr.read_track(wmrbook.data.path("ublox5-standing.nmea"))
+    >>> log
     <Track: 9 positions from NMEA, over 8 s; 77 not used>
+    >>> print(log.report)
+    9 positions used
+    not used: 7 comment (first in line 1)
+    not used: 52 other sentence (first in line 8)
+    not used: 18 same epoch again (first in line 15)
     """
     if not isinstance(path, str | os.PathLike):
         raise refusal("path", path, "a str or PathLike", f", not of type {type(path).__name__}")
@@ -133,6 +147,8 @@ def read_track(path: str | os.PathLike) -> Track:
 
 def _read(file: BufferedReader) -> tuple[str, Fixes]:
     head = file.peek()
+    if not head:
+        raise ValueError("it is empty")
     if head.startswith((b"\x1f\x8b", b"PK\x03\x04")) or head[8:12] == b".FIT":
         raise ValueError("it is compressed, a KMZ or a FIT file; unpack it, or export it as GPX")
     wide = head.startswith((b"\xff\xfe", b"\xfe\xff"))  # as PowerShell's > writes
@@ -151,5 +167,5 @@ def _read(file: BufferedReader) -> tuple[str, Fixes]:
         except LookupError as error:  # no header
             text.seek(0)
             if (fixes := nmea.read(nmea.numbered(text), Fixes())) is None:
-                raise ValueError(f"it is neither NMEA, UBX nor GPX, and {error.args[0]}") from None
+                raise ValueError(f"{_NO_FORMAT}, and {error.args[0]}") from None
             return "NMEA", fixes

@@ -40,7 +40,7 @@ def trust(quality: float) -> int:
 
 
 class Count(NamedTuple):
-    """The number of occurrences, and the line (in UBX the byte) of the first."""
+    """The number of occurrences, `count`, and the line of the `first` (in UBX its byte)."""
 
     count: int  # type: ignore[assignment]  # hides tuple.count, which nobody calls here
     first: int
@@ -48,10 +48,14 @@ class Count(NamedTuple):
 
 @dataclass(frozen=True)
 class Report:
-    """The number of positions used, and for each reason the Count of lines that gave none.
+    """How much of a file was used, and how much was not, by its reason; `print` shows it all.
 
-    `noted` counts positions that are used although something is amiss with them, and `place` is
-    "line", "byte" or, of GeoJSON, "feature"; `print` it all.
+    Attributes
+    ----------
+    used : int, the number of positions
+    skipped : mapping from a reason to the `Count` of lines that gave no position
+    noted : likewise of positions that are used although something is amiss with them
+    place : "line", "byte" or, of GeoJSON, "feature"
     """
 
     used: int

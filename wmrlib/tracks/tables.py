@@ -122,7 +122,8 @@ def _header(lines: Iterator[str], fixes: Fixes) -> tuple[int, str, list[_Column]
             titles += [] if comment else [excerpt]
         if len(titles) > 9 or len(line) == LONGEST:
             break
-    raise LookupError(f"as a table its first line {''.join(titles[:1])} does not name lat and lon")
+    needed = "as a table none of its first ten lines names lat and lon, or latitude and longitude"
+    raise LookupError(f"{needed}; the first is {titles[0]}" if titles else needed)
 
 
 def _column(name: str, place: int) -> _Column:

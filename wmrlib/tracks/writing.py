@@ -41,6 +41,18 @@ def write_gpx(
     ------
     ValueError : no position, a name that can't be printed, t without begin or of another length
     OSError : a file that can't be written
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import wmrlib as wmr
+    >>> start, goal, gains, _ = wmr.paper.outdoor()
+    >>> run = wmr.simulate(start, goal, gains)
+    >>> file = Path(tempfile.mkdtemp()) / "drive.gpx"
+    >>> wmr.write_gpx(file, wmr.point_at(wmr.paper.GPS_POINT_1, run.x, run.y))
+    >>> len(wmr.read_track(file)) == len(run.t)
+    True
     """
     lat, lon = _rounded(points, name)
     lon[lon == 180.0] = -180.0  # GPX 1.1: below 180
@@ -53,6 +65,16 @@ def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmr
     """Write positions as a GeoJSON Feature; parameters and errors as `write_gpx`.
 
     Across the date line longitudes go on beyond 180, so that no map draws a line round the Earth.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import wmrlib as wmr
+    >>> file = Path(tempfile.mkdtemp()) / "way.geojson"
+    >>> wmr.write_geojson(file, wmr.GeoPoint(lat=[52.1, 52.2], lon=13.4))
+    >>> wmr.read_track(file).points.lat
+    array([52.1, 52.2])
     """
     lat, lon = _rounded(points, name)
     places = np.column_stack([np.round(np.unwrap(lon, period=360.0), 7), lat]).tolist()
@@ -92,5 +114,8 @@ def _replace(path: str | os.PathLike, text: str) -> None:
     try:
         new.write_text(text, "utf-8")
         new.replace(place)
+    except OSError as error:  # it names the file that was asked for, not the one beside it
+        error.filename, error.filename2 = os.fspath(path), None
+        raise
     finally:
         new.unlink(missing_ok=True)

@@ -137,6 +137,7 @@ def route_poses(
     Examples
     --------
     >>> import wmrlib as wmr
+    >>> from wmrbook.chapters import routes
     >>> points = wmr.GeoPoint(lat=[33.2735, 33.2737, 33.2737], lon=[44.3731, 44.3731, 44.3734])
     >>> print(routes.route_poses(points).x.round(1))
     [ 0.   0.  27.9]
@@ -215,6 +216,7 @@ def drive_route(
     Examples
     --------
     >>> import wmrlib as wmr
+    >>> from wmrbook.chapters import routes
     >>> corner = wmr.Pose([0.0, 20.0, 20.0], [0.0, 0.0, 20.0], [0.0, 0.8, 1.6])
     >>> routes.drive_route(corner, wmr.GENTLE_GAINS, stop=False, method="continuous")
     <Route: 2 of 2 waypoints reached in 17.4 s, 39.81 m long>

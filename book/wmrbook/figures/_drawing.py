@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from wmrbook.figures.style import LINES, STYLE
-from wmrlib.checks import instance
+from wmrlib.checks import instance, refusal
 from wmrlib.runs import Trajectory, with_samples
 
 SERIES = (  # the colour's role and the line style of each of up to five runs
@@ -77,6 +77,8 @@ def run_list(
     """One run or several as a list of at most four, with one label each, or none."""
     runs = [runs] if isinstance(runs, Trajectory) else list(runs)
     check_count("runs", runs, 1, len(LINES))
+    if isinstance(labels, str | Trajectory) or not all(isinstance(it, str) for it in labels):
+        raise refusal("labels", labels, "a list with a str for each run, such as ['a', 'b'],")
     if len(labels) not in (0, len(runs)):
         needed = f"one for each of the {len(runs)} runs is needed"
         raise ValueError(f"labels has {len(labels)} entries, which is not allowed: {needed}")

@@ -36,7 +36,7 @@ def path(
     Parameters
     ----------
     runs : Trajectory, or 1 to 4 of them
-    labels : one str a run, or none
+    labels : list of one str a run, or none
     near : m, or None; an inset shows the end of the first path so near its goal
 
     Returns
@@ -46,6 +46,17 @@ def path(
     Raises
     ------
     ValueError : another number of runs or labels
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> import wmrlib as wmr
+    >>> from wmrbook import figures
+    >>> start, goal, gains, _ = wmr.paper.outdoor()
+    >>> runs = [wmr.simulate(start, goal, chosen) for chosen in (gains, wmr.GENTLE_GAINS)]
+    >>> picture = figures.path(runs, labels=["paper", "gentle"], near=2.0)
+    >>> picture.figure.savefig(Path(tempfile.mkdtemp()) / "paths.png")
     """
     runs = run_list(runs, labels)
     count, single = len(runs), len(runs) == 1
