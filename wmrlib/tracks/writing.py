@@ -115,7 +115,6 @@ def _replace(path: str | os.PathLike, text: str) -> None:
         new.write_text(text, "utf-8")
         new.replace(place)
     except OSError as error:  # it names the file that was asked for, not the one beside it
-        error.filename, error.filename2 = os.fspath(path), None
-        raise
+        raise OSError(error.errno, error.strerror, os.fspath(path)) from None
     finally:
         new.unlink(missing_ok=True)
