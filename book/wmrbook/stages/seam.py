@@ -16,7 +16,7 @@ CLOSE, NOISE = 0.5, 2.0  # m and deg, of the robots that see their goal through 
 SWARM = {"robots": 40, "dt": 0.01, "radius": 0.05, "seed": 5, "steps": 1000}
 AIDE = ("gains", "facing")
 BESIDE = {"1 m": 1.0, "1 mm": 1e-3, "1 µm": 1e-6}
-PARK = "With {noise} of noise and {hysteresis} of hysteresis {lost} robots park over 90° off."
+PARK = "With {noise} of noise and {hysteresis} of hysteresis {lost} robots (red) park over 90° off."
 CAME = "Blue {blue}, pink {pink}."
 
 
@@ -85,7 +85,7 @@ def seam(scene: str = "whole") -> Stage:
             ask=Question(
                 "40 robots face their goal, but should face the other way. Without noise all turn "
                 "to one side. With 2° of noise, how many park over 90° off?",
-                dict.fromkeys(answers, "with {noise} of noise {lost} park over 90° off."),
+                dict.fromkeys(answers, "with {noise} of noise {lost} park over 90° off (red)."),
                 next(answer for answer, right in answers.items() if right),
                 {"noise": NOISE},
             ),

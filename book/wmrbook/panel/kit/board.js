@@ -113,7 +113,8 @@ export function paneOf(canvas, colours, spec) {
     // at last, for no path may strike one out
     name() {
       if (spec.lawn) drawScale(ctx, view, colours, (metres) =>
-        (metres < 0.01 ? written(1000 * metres, 'mm', 1) : written(metres, 'm', 1)));
+        (metres < 1e-5 ? written(1e6 * metres, 'µm', 1)
+            : metres < 0.01 ? written(1000 * metres, 'mm', 1) : written(metres, 'm', 1)));
       names.forEach(([pose, name]) => drawName(ctx, view, pose, name, colours));
     },
     rect(left, bottom, right, top, role, share = 0.85) {
