@@ -44,11 +44,11 @@ def course_from_gps(scene: str = "whole") -> Stage:
     shares = {"a quarter of it": 0.25, "half of it": 0.5, "as much": 1.0}
     counts = {"all of them": ROBOTS, "half of them": ROBOTS // 2, "only its own": 1}
     left = fitting(0.0, 0.0, TURN)
-    ends = "After {far} two fixes that err by {sigma} tell it to {off}, or so."
+    ends = "Two fixes that err by {sigma}, {far} apart, tell its heading within about {off}."
     fit = "{fits} of {robots} headings fit the fixes"
     scenes = {
         "whole": Scene(
-            "A receiver says where the robot is. Who says where it looks? " + ends,
+            "A receiver says where the robot is. Who says where it faces? " + ends,
             look="other",
             handles=PLAIN,
         ),
@@ -58,9 +58,9 @@ def course_from_gps(scene: str = "whole") -> Stage:
             still=True,
             handles=PLAIN,
             ask=Question(
-                "{far} apart, two fixes leave its heading open by {off}. How much do they leave "
-                "at twice the distance?",
-                dict.fromkeys(shares, "two fixes {far} apart leave it open by {off}."),
+                "{far} apart, two fixes leave its heading uncertain by {off}. How much uncertainty "
+                "is left at twice the distance?",
+                dict.fromkeys(shares, "two fixes {far} apart leave it uncertain by {off}."),
                 min(shares, key=lambda answer: abs(shares[answer] - after / before)),
                 {"far": 2 * FAR},
             ),
@@ -74,8 +74,8 @@ def course_from_gps(scene: str = "whole") -> Stage:
         ),
         "two": Scene(
             "Grey: a guess within {guess}. Blue: what is left of it after two fixes of {sigma} "
-            "that are {far} apart, {both}. In the corner: place aside and heading, before and "
-            "after the second fix.",
+            "that are {far} apart, {both}. In the corner: errors of place (to the side) and "
+            "heading, before and after the second fix.",
             look="other",
             to={"far": 5.0, "guess_deg": 11.5},
             handles=("guess_deg", *PLAIN),

@@ -6,7 +6,8 @@ import {
 } from '../drawing.js';
 
 const LONG = 4, LENGTH = 40, ROOM = 0.5; // m of an arm of the cone; samples of the drive; m
-const READING = 30 / DEGREES, MOST = 190, FLAT = 0.8; // rad; px, and the corner's height to that
+const READING = 30 / DEGREES, RAY = 0.45; // rad; m ahead of a robot, by which it shows its heading
+const MOST = 190, FLAT = 0.8; // px, and the corner's height to that
 const MANY = ['rest', 'straight', 'turn'];
 
 // two fixes err across the way by sqrt(2) sigma, (14.1)
@@ -114,6 +115,9 @@ export default stage('course_from_gps', {
       for (const it of tracks.slice(1))
         pane.line(Array.from({ length: k + 1 }, (_, i) => ahead(poseAt(it, i), arm)), 'ghost',
             { width: 1.5, dash: [3, 4] });
+      for (const [i, it] of scene === 'turn' ? tracks.entries() : [])
+        pane.line([0, RAY].map((far) => ahead(poseAt(it, k), far)), i ? 'ghost' : 'path',
+            { width: 2 });
       return;
     }
     if (scene === 'lean') {
