@@ -156,7 +156,7 @@ def test_no_house_imports_a_private_module_of_another_and_no_test_uses_one():
 def test_the_librarys_ten_lines_do_what_their_comments_say(capsys):
     text = (BOOK / "api.md").read_text(encoding="utf-8")
     lines = re.search(r"```python\n(.*?)```", text, re.DOTALL)[1]
-    place, arrival = re.findall(r"  # (.*)", lines)
+    place, arrival = re.findall(r"# (.*)", lines)
     names = {}
     exec(lines, names)
     assert capsys.readouterr().out.strip() == arrival
