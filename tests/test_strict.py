@@ -28,6 +28,13 @@ def test_the_function_is_strict_in_the_window_and_nowhere_else():
     assert sp.expand(bent.det() + 64 * WINDOW.lhs) == 0
 
 
+def test_a_question_that_takes_too_long_ends_with_a_sentence(monkeypatch):
+    monkeypatch.setattr("wmrbook.chapters.strict.PATIENCE", 0.2)
+    falls = slope((1 + 4 * P**2 + 4 * Q**2) ** 4 - 1 + 4 * (P + Q) ** 2)
+    with pytest.raises(TimeoutError, match=r"no answer within 0.2 s: neither a proof nor"):
+        counterexample(falls, WINDOW)
+
+
 def test_the_polynomial_is_the_laws_own_rate():
     values = {"rho": 0.7, "alpha": 0.9, "theta": -2.1, "k_rho": 1.3, "h": 1.0, "v_max": 0.8}
     clock = 0.8 * symbolic.decay(0.7, 1.3).evalf()

@@ -131,6 +131,11 @@ TRIED = """async ({ knobs, scenes, poses }) => {
 }"""
 
 
+def _module(name: str):
+    """The module of a stage, which is imported when the stage is first asked for."""
+    return sys.modules[getattr(stages, name).__module__]
+
+
 def _one_by_one(page, **options):
     """Show the stages of all chapters in one page, one after another."""
     mounted(page, stages.first_drive(), **options)
@@ -201,7 +206,7 @@ def _late() -> str:
 
 
 def _noisy(gains=GENTLE_GAINS, radius=None, turn=None, **receiver) -> str:
-    module = sys.modules["wmrbook.stages.noisy_fixes"]
+    module = _module("noisy_fixes")
     ends = sweep(
         module.START,
         module.GOAL,
@@ -227,13 +232,13 @@ def _printed() -> str:
 
 
 def _crooked() -> str:
-    module = sys.modules["wmrbook.stages.crooked_compass"]
+    module = _module("crooked_compass")
     run = module.driven(bias=module.BIAS)
     return f"stops {100 * run.rho[-1]:.1f} cm from its goal, {off_heading(run):.0f}° off"
 
 
 def _race() -> str:
-    module = sys.modules["wmrbook.stages.race_of_laws"]
+    module = _module("race_of_laws")
     options = {"method": "arc", "dt": module.DT, "wheels": module.WHEELS}
     graceful, ours = (
         _end(module.START, module.GOAL, module.TUNED[law], law=law, **options)
@@ -243,7 +248,7 @@ def _race() -> str:
 
 
 def _seam() -> str:
-    module = sys.modules["wmrbook.stages.seam"]
+    module = _module("seam")
     around = math.radians(module.HAIR)
     place = module.AWAY * math.cos(around), module.AWAY * math.sin(around)
     end = _end(Pose(*place, math.pi), module.GOAL, GENTLE_GAINS, method="arc", dt=0.02)
@@ -251,7 +256,7 @@ def _seam() -> str:
 
 
 def _digits() -> str:
-    module = sys.modules["wmrbook.stages.gps_points"]
+    module = _module("gps_points")
     origin = paper.GPS_POINT_1
     goal = destination_point(
         origin, math.hypot(*module.GOAL[:2]), math.atan2(module.GOAL.x, module.GOAL.y)
@@ -263,18 +268,18 @@ def _digits() -> str:
 
 
 def _twist() -> str:
-    v, omega = wheels_to_twist(0.3, 0.5, sys.modules["wmrbook.stages.two_wheels"].TRACK_WIDTH)
+    v, omega = wheels_to_twist(0.3, 0.5, _module("two_wheels").TRACK_WIDTH)
     return f"v = {v:.3f} m/s and ω = {omega:.3f} rad/s"
 
 
 def _seen() -> str:
-    module = sys.modules["wmrbook.stages.three_numbers"]
+    module = _module("three_numbers")
     run = simulate(module.START, module.GOAL, GENTLE_GAINS, method="continuous")
     return f"stops after {run.t[-1]:.2f} s, {off_heading(run):.0f}° off its heading"
 
 
 def _downhill() -> str:
-    rises, all_park = sys.modules["wmrbook.stages.downhill"]._outcome(GENTLE_GAINS)
+    rises, all_park = _module("downhill")._outcome(GENTLE_GAINS)
     return f"{7 if all_park else '[0-6]'} of 7 park .* V {'rises' if rises else 'never rises'}"
 
 
@@ -287,7 +292,7 @@ def _two() -> str:
 
 
 def _kappa() -> str:
-    module, gains = sys.modules["wmrbook.stages.two_numbers"], paper.OUTDOOR_GAINS
+    module, gains = _module("two_numbers"), paper.OUTDOOR_GAINS
     _, off = module._drive(gains)
     sooner = "sooner" if modes(gains).slower < 1 else "no sooner"
     return f"κ = {modes(gains).kappa:.3f} .*settles {sooner} than.* s, {off:.0f}° off"
@@ -361,7 +366,7 @@ def test_a_referees_scenes_say_what_wmrlib_computes(browser_page):
 
 
 def test_the_scenes_of_the_last_chapter_say_what_wmrlib_computes(browser_page):
-    module = sys.modules["wmrbook.stages.seam"]
+    module = _module("seam")
     goal, start = module.GOAL, Pose(module.AWAY, 0.0, math.pi)
     options = {"method": "continuous", "dt": 0.02, "arrival_radius": 0.01}
 
@@ -395,7 +400,7 @@ def test_the_scenes_of_the_last_chapter_say_what_wmrlib_computes(browser_page):
 def test_robots_back_into_a_dock_and_turn_at_the_end_as_wmrlib_does(browser_page, law):
     """Backwards is forwards with both headings turned round; a last turn takes its time."""
     stage = stages.race_of_laws("dock")
-    race, called = sys.modules["wmrbook.stages.race_of_laws"], dict(stage.setup["data"]["names"])
+    race, called = _module("race_of_laws"), dict(stage.setup["data"]["names"])
     start, goal = (it._replace(heading=it.heading + math.pi) for it in (race.START, race.GOAL))
     options = {"law": law, "method": "arc", "dt": race.DT, "wheels": race.WHEELS}
     backed = simulate(start, goal, race.TUNED[law], **options)
@@ -413,6 +418,44 @@ def test_robots_back_into_a_dock_and_turn_at_the_end_as_wmrlib_does(browser_page
         said = browser_page.locator(".stage-words[data-on=true]").text_content()
         said = said.replace("\N{NO-BREAK SPACE}", " ")
         assert f"{called[law]} stops after {truth}" in said, way
+
+
+def _said_of_the_race(page, scene: str, **places: object) -> str:
+    mounted(page, as_stored(stages.race_of_laws(scene)), width=620).set(**places)
+    said = page.locator(".stage-words[data-on=true]").text_content()
+    return said.replace("\N{NO-BREAK SPACE}", " ")
+
+
+@pytest.mark.parametrize("law", ["graceful", "printed"])
+def test_a_clock_that_runs_ahead_ends_each_drive_in_time(browser_page, law):
+    race = _module("race_of_laws")
+    run = simulate(
+        race.START, race.GOAL, race.TUNED[law], law=law, method="arc", dt=race.DT, duration=60.0
+    )
+    ticks = math.ceil(run.t[-1] / (1 + run.t[-1] / race.BY) / (race.DT / 5))
+    said = _said_of_the_race(browser_page, "time", law=law)
+    truth = f"{race.DT / 5 * ticks:.2f} s, {off_heading(run):.0f}°"
+    assert f"{race.NAMES[law]} stops after {truth}" in said
+
+
+@pytest.mark.parametrize("speed", ["0.1", "0.4"])
+def test_at_a_given_speed_a_robot_is_steered_by_the_chapters_law(browser_page, speed):
+    race = _module("race_of_laws")
+    v, c, clock, rates = float(speed), race.SETTLES, 0.0, []
+    robot, goal = (it._replace(heading=it.heading + math.pi) for it in (race.START, race.GOAL))
+    while (error := polar_error(robot, goal)).rho > 0.05:
+        rho, alpha, theta = error
+        tan, cos = math.tan(alpha), math.cos(alpha)
+        zeta = tan + c * theta
+        rates.append(v * cos / rho * (tan + cos**2 * (c * tan + c * zeta + theta)))
+        step = 0.002 * rho / v
+        robot, clock = advance(robot, v, rates[-1], step), clock + step
+    said = _said_of_the_race(browser_page, "speed", speed=speed)
+    taken, turn = re.search(
+        r"\(13.3\) stops after ([\d.]+) s, 0° off.* up to ([\d.]+) °", said
+    ).groups()
+    assert float(taken) == pytest.approx(clock, abs=race.DT + 0.05)
+    assert float(turn) == pytest.approx(math.degrees(max(map(abs, rates))), rel=0.1)
 
 
 @pytest.mark.parametrize(
@@ -497,7 +540,7 @@ def test_a_stage_says_how_much_farther_the_sphere_is_than_the_ellipsoid(browser_
 
 def test_a_stage_drives_with_the_wrong_sign_as_wmrlib_does(browser_page):
     stage = stages.three_numbers()
-    module = sys.modules["wmrbook.stages.three_numbers"]
+    module = _module("three_numbers")
     where, options = (module.START, module.GOAL, GENTLE_GAINS), {"method": "arc", "dt": module.DT}
     run = simulate(*where, law=module.mistaken, **options)
     mounted(browser_page, stage, width=620).set(sign="wrong")
@@ -506,7 +549,7 @@ def test_a_stage_drives_with_the_wrong_sign_as_wmrlib_does(browser_page):
 
 
 def test_a_stage_of_noisy_fixes_stops_where_wmrlib_does(browser_page):
-    module = sys.modules["wmrbook.stages.noisy_fixes"]
+    module = _module("noisy_fixes")
     early = Gains(*(module.EARLY[name] for name in ("k_rho", "k_alpha", "h")), GENTLE_GAINS.v_max)
     ends = {
         "lasting": _noisy(memory=module.MEMORIES["lasting"]),
@@ -531,7 +574,7 @@ def test_a_stage_of_noisy_fixes_stops_where_wmrlib_does(browser_page):
 
 def test_a_stage_splits_the_velocity_as_wmrlib_does(browser_page):
     stage = stages.three_numbers("split")
-    module = sys.modules["wmrbook.stages.three_numbers"]
+    module = _module("three_numbers")
     error = polar_error(module.START, module.GOAL)
     v, omega = control_law(*error, GENTLE_GAINS)
     closing, _, turning = polar_rate(error.rho, error.alpha, v, omega)

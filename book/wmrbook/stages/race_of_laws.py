@@ -26,7 +26,11 @@ DRIVES = {
     "forwards": "forwards",
     "turn": "with a last turn",
     "backwards": "backwards",
+    "hurried": "by a given time",
 }
+SPEEDS = {"own": "its own", "0.1": "0.1 m/s", "0.2": "0.2 m/s", "0.4": "0.4 m/s"}
+SETTLES = 2.0  # c_1 and c_2 of the law for a given speed
+BY = 5.0  # s
 
 
 def race_of_laws(scene: str = "whole") -> Stage:
@@ -68,22 +72,38 @@ def race_of_laws(scene: str = "whole") -> Stage:
             "graceful", "Graceful drives {back} backwards, because its speed is never negative."
         ),
         "near": Scene("The last metre. " + ends, look="near", handles=("law",)),
+        "speed": Scene(
+            "The law (13.3) drives the same path at every speed that it is given. " + ends,
+            to={"drives": "backwards", "speed": "0.4"},
+            moved=ends,
+            handles=("speed",),
+        ),
+        "time": Scene(
+            f"With clocks that run ahead, and ideal wheels, both are there by {BY:.0f} s. " + ends,
+            to={"drives": "hurried"},
+            moved=ends,
+            handles=("law",),
+        ),
         "spot": Scene(
             "Both robots turn on the spot at the end, as fast as their wheels allow. " + ends,
             to={"law": "printed", "drives": "turn"},
             moved=ends,
+            handles=("law", "drives"),
         ),
         "dock": Scene(
             "Both robots back into the dock, so neither has to turn round. " + ends,
             to={"drives": "backwards"},
             moved=ends,
+            handles=("law", "drives"),
         ),
     }
     knobs = {
         "law": Choice("graceful", OTHERS, "the other law", "against the corrected law"),
         "drives": Choice("forwards", DRIVES, "the way of driving", "both drive"),
+        "speed": Choice("own", SPEEDS, "the speed of the other robot", "speed of the other"),
     }
     limits = {"b": WHEELS.track_width, "max_speed": WHEELS.max_speed, "min_speed": 0.0}
     data = {"tuned": {law: it._asdict() for law, it in TUNED.items()}, "names": OTHERS}
     data |= {"limits": limits, "dt": DT, "radius": 0.05, "steps": round(60.0 / DT)}
+    data |= {"settles": SETTLES, "by": BY}
     return Stage("race_of_laws", knobs, scenes, scene, start=START, goal=GOAL, data=data)

@@ -23,7 +23,7 @@ export const CONTRACTS = {
   'stages/late_looks': 'a40a95cb',
   'stages/moving_goal': '5f0e266c',
   'stages/noisy_fixes': 'c759b246',
-  'stages/race_of_laws': 'c265113f',
+  'stages/race_of_laws': 'ade6303c',
   'stages/seam': '7102a15e',
   'stages/standing_still': '6b6c195d',
   'stages/three_numbers': '7a3435a1',
