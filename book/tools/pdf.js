@@ -2,8 +2,7 @@
 window.paper = (() => {
   const all = (selector, root = document) => [...root.querySelectorAll(selector)];
   const LONG = 12; // lines: a longer listing is read in the chapter's notebook
-  const chapters = () =>
-    all('span[id^="document-"]').map((it) => it.nextElementSibling).filter(titleOf);
+  const FOOT = 'font: 8.5pt sans-serif; color: #57606a';
   const titleOf = (section) => section?.querySelector(':scope > :is(h1, h2, h3, h4)');
   const wordsOf = (title) => {
     const copy = title.cloneNode(true);
@@ -40,19 +39,65 @@ window.paper = (() => {
       else link.href = `#${place}`;
     }
     await Promise.all(all('img').map((it) => it.decode().catch(() => {})));
-    if (!chapters().length) return [];
-    const list = document.createElement('nav');
+    for (const link of all('.bd-article a.external')) { // where it leads can't be clicked
+      const place = link.href.replace(/^https?:\/\/|\/$/g, '');
+      const known = link.textContent.trim().replace(/^doi:|^https?:\/\/|\/$/g, '');
+      if (place.includes(known)) continue;
+      const address = document.createElement('span');
+      address.className = 'paper-address';
+      address.textContent = ` (${place})`;
+      link.after(address);
+    }
+    return asBook();
+  }
+
+  // The documents on one page become chapters, with a list of them before; none, no book.
+  function asBook() {
+    const starts = all('span[id^="document-"]').filter((it) => titleOf(it.nextElementSibling));
+    if (!starts.length) return [];
+    const list = document.createElement('nav'), feet = document.createElement('style');
     list.className = 'paper-contents';
-    const anchors = chapters().map((chapter, k) => {
-      const title = titleOf(chapter), link = document.createElement('a');
+    starts[0].parentElement.before(list);
+    const parts = all('#pst-page-toc-nav .caption');
+    list.append(paragraph('Contents'));
+    document.head.append(feet);
+    return starts.map((start, k) => {
+      const chapter = start.nextElementSibling, title = titleOf(chapter);
+      const words = wordsOf(title), link = document.createElement('a');
+      const part = parts.find((it) =>
+        it.nextElementSibling.querySelector('a').hash === `#${start.id}`);
+      if (part) list.append(paragraph(part.textContent));
       title.id = `chapter-${k}`; // no other document has it
+      title.classList.add('paper-title');
       link.href = `#${title.id}`;
-      link.append(wordsOf(title), document.createElement('span'));
+      link.append(words, document.createElement('span'));
       list.append(link);
+      chapter.classList.add('paper-chapter');
+      chapter.prepend(start); // or a link to the chapter leads to the page before
+      chapter.style.page = title.id;
+      const foot = `content: ${JSON.stringify(words)}; ${FOOT}`;
+      feet.append(`@page ${title.id} { @bottom-left { ${foot} } }`);
+      nameLive(chapter, /^\d+(?=\.)/.exec(words)?.[0]);
       return title.id;
     });
-    chapters()[0].parentElement.before(list);
-    return anchors;
+  }
+
+  // Live pictures that have no caption are numbered, so that a class can speak of them.
+  function nameLive(chapter, number) {
+    const live = all('.cell:has(.wmr):not(:has(+ .figure-caption))', chapter);
+    if (number) live.forEach((it, k) => {
+      const name = paragraph(''), bold = document.createElement('strong');
+      name.className = 'figure-caption';
+      bold.append(`Live picture ${number}.${k + 1}`);
+      name.append(bold, ', which moves on the book\u2019s page.');
+      it.append(name);
+    });
+  }
+
+  function paragraph(words) {
+    const made = document.createElement('p');
+    made.append(words);
+    return made;
   }
 
   const number = (pages) => all('.paper-contents span').forEach((it, k) => {

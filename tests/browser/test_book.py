@@ -53,7 +53,8 @@ def test_the_printed_book_has_all_chapters_where_its_contents_say(book):
         heading = nbformat.read(chapter, 4).cells[0].source.splitlines()[0].removeprefix("# ")
         title = f"{int(chapter.name[:2])}. {heading}"
         listed = re.search(rf"{re.escape(title)}\s+(\d+)", "\n".join(pages[:5]))
-        assert letters(pages[int(listed[1]) - 1]).startswith(letters(listed[1] + title)), title
+        page = letters(pages[int(listed[1]) - 1])
+        assert page.startswith(letters(title + listed[1] + title)), title  # its foot, then itself
     text = letters("".join(pages))
     assert not [it for it in closed() if letters(it) in text]
     assert len(images) > 3 * len(chapters())

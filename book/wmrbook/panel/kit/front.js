@@ -136,8 +136,9 @@ function render({ model, el }) {
         : 'the robot is drawn to scale', width - 12, height - 14, colours,
     { colour: colours.soft, align: 'right' });
     say(done);
-    label(ctx, 'drag a circle or an arrow', width - 12, height - 34, colours,
-        { colour: colours.soft, align: 'right' });
+    if (!matchMedia('print').matches)
+      label(ctx, 'drag a circle or an arrow', width - 12, height - 34, colours,
+          { colour: colours.soft, align: 'right' });
     const inView = (name) => {
       const [x, y] = view.toScreen(poses[name][0], poses[name][1]);
       return x > 0 && x < width && y > 0 && y < height ? poses[name] : null;

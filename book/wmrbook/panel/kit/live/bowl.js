@@ -118,7 +118,8 @@ export default live('bowl', {
     bowl.dot(...ball, 'path', { size: 8 });
     bowl.dot(ball[0] - 2.5 * bowl.pixel, ball[1] + 3 * bowl.pixel, 'paper', { size: 1 });
     sides.filter(({ inside }) => !inside).forEach((each) => fill(each, 0.45));
-    if (!hidden && yaw === look[0] && tilt === look[1]) {
+    const still = yaw === look[0] && tilt === look[1];
+    if (still && !hidden && !matchMedia('print').matches) {
       const arc = ring(0, 0, 0.95, 205 / DEGREES, 335 / DEGREES)
           .map(([x, y]) => [x, 0.32 / 0.95 * y - 0.35]);
       bowl.line(arc, 'focus');
