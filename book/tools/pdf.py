@@ -26,7 +26,7 @@ SCRIPT = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 STATE = "application/vnd.jupyter.widget-state+json"
 DATE = re.compile(rb"/(?:Creation|Mod)Date \(D:[^)]*\)")
 PATIENCE = 900_000  # ms: a whole book takes a minute where nothing else runs
-SHEET = {"width": 620, "height": 900}  # px, about the text on a page of A4
+SHEET = {"width": 627, "height": 900}  # px: the text on a page of A4, see print.css
 SHARP = 2.5  # dots a pixel, of the panels' pictures
 NEVER_ASK = "localStorage.setItem('wmr-never-ask', '1')"  # see memory.js
 

@@ -49,10 +49,11 @@ def test_the_printed_book_has_all_chapters_where_its_contents_say(book):
         pages = [page.get_textpage().get_text_bounded() for page in printed]
         images = [it for page in printed for it in page.get_objects([FPDF_PAGEOBJ_IMAGE])]
     assert letters(conf.edition) in letters(pages[0] + pages[1])
+    lines = [letters(line) for page in pages[:5] for line in page.splitlines()]
     for chapter in chapters():
         heading = nbformat.read(chapter, 4).cells[0].source.splitlines()[0].removeprefix("# ")
         title = f"{int(chapter.name[:2])}. {heading}"
-        listed = re.search(rf"{re.escape(title)}\s+(\d+)", "\n".join(pages[:5]))
+        listed = next(filter(None, (re.fullmatch(rf"{letters(title)}(\d+)", it) for it in lines)))
         page = letters(pages[int(listed[1]) - 1])
         assert page.startswith(letters(title + listed[1] + title)), title  # its foot, then itself
     text = letters("".join(pages))
