@@ -39,15 +39,6 @@ window.paper = (() => {
       else link.href = `#${place}`;
     }
     await Promise.all(all('img').map((it) => it.decode().catch(() => {})));
-    for (const link of all('.bd-article a[href^="http"]')) { // where it leads can't be clicked
-      const place = link.href.replace(/^https?:\/\/|\/$/g, '');
-      const known = link.textContent.trim().replace(/^doi:|^https?:\/\/|\/$/g, '');
-      if (place.includes(known)) continue;
-      const address = document.createElement('span');
-      address.className = 'paper-address';
-      address.textContent = ` (${place})`;
-      link.after(address);
-    }
     return asBook();
   }
 
