@@ -111,6 +111,30 @@ def test_beside_the_text_the_stage_follows_the_reader(opened, browser_page):
     assert box["bottom"] - box["top"] <= TELEPHONE["height"] - 56, "picture and sliders on a screen"
 
 
+def test_on_a_telephone_a_section_without_a_stage_of_its_own_can_have_it(opened, browser_page):
+    browser_page.set_viewport_size(TELEPHONE)
+    page = opened("notebooks/12_your_own_gps.html")
+    stage = page.locator(".wmr.stage").first
+    stage.locator("canvas").wait_for()
+    opening, sections = stage.get_attribute("data-scene"), page.locator("section[class*=stage-]")
+    shown, at_home = [], page.locator("h1 ~ .cell .wmr.stage")
+    for section in sections.all():
+        own, scene = section.locator(":scope > .tag_stage"), section.get_attribute("class")
+        if not own.count():
+            head = section.locator(":scope > h2")
+            head.scroll_into_view_if_needed()
+            before = head.evaluate(BOX)["top"]
+            section.locator(":scope > .bring-stage").click()
+            assert abs(head.evaluate(BOX)["top"] - before) < 2, "the reader has lost the place"
+            assert at_home.count() == 0, "the stage is twice on the page"
+        own.locator("canvas").wait_for()
+        shown.append(own.locator(".wmr.stage").get_attribute("data-scene"))
+        assert f"stage-{shown[-1]}" in scene.split(), scene
+    assert len({*shown}) > 4, shown
+    page.locator(".bring-stage").first.click()
+    assert at_home.get_attribute("data-scene") == opening
+
+
 def test_a_docked_page_keeps_its_buttons_its_links_and_the_readers_place(opened, browser_page):
     browser_page.set_viewport_size(DESK)
     (name, notebook), *_ = CHAPTERS.items()

@@ -320,6 +320,31 @@ TRUTHS = {
 }
 
 
+# A scene, the numbers that a hand types, or none if it drags the start, and what is then false.
+NO_LONGER = [
+    ("two_drives", "whole", {"k_rho": 0.05, "radius": 0.01}, "Both arrive"),
+    ("two_drives", "whole", {}, "Both arrive"),
+    ("two_drives", "given", {}, "that the paper gives"),
+    ("two_drives", "errors", {"radius": 0.3}, "shrink to nearly nothing"),
+    ("course_from_gps", "whole", {"sigma": 3.0}, "within about"),
+]
+
+
+def test_a_claim_that_a_hand_has_made_false_is_gone(browser_page):
+    shown = browser_page.locator(".stage-words[data-on=true]")
+    for name, scene, typed, claim in NO_LONGER:
+        panel = mounted(browser_page, getattr(stages, name)(scene), width=620)
+        assert claim in shown.text_content(), f"{name}, {scene}: says nothing of it"
+        for knob, number in typed.items():
+            field = panel.control(knob).locator(".wmr-typed")
+            field.fill(str(number))
+            field.press("Enter")
+        if not typed:
+            panel.drag(panel.handle("start", "move"), -40, 0)
+        panel.settled()
+        assert claim not in shown.text_content(), f"{name}, {scene}"
+
+
 def as_stored(stage):
     """Return a stage as a page or a deck has it from a notebook, which sorts what it stores."""
     stage.setup = json.loads(json.dumps(stage.setup, sort_keys=True))

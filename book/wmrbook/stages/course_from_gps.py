@@ -44,7 +44,7 @@ def course_from_gps(scene: str = "whole") -> Stage:
     shares = {"a quarter of it": 0.25, "half of it": 0.5, "as much": 1.0}
     counts = {"all of them": ROBOTS, "half of them": ROBOTS // 2, "only its own": 1}
     left = fitting(0.0, 0.0, TURN)
-    ends = "Two fixes that err by {sigma}, {far} apart, tell its heading within about {off}."
+    ends = "Two fixes that err by {sigma}, {far} apart, {tell}."
     fit = "{fits} of {robots} headings fit the fixes"
     scenes = {
         "whole": Scene(

@@ -33,10 +33,12 @@ def two_drives(scene: str = "whole") -> Stage:
         "goes to zero."
     )
     scenes = {
-        "whole": Scene(f"Both arrive. Which one parks? {CAME}"),
+        "whole": Scene(f"Both arrive. Which one parks? {CAME}", moved=CAME),
         "given": Scene(
             "All that the paper gives: a start that faces {from} from east, a goal {distance} away "
             "that should be reached facing {to}, a speed limit, three gains and a time step.",
+            moved="A start that faces {from} from east, and a goal {distance} away that should be "
+            "reached facing {to}.",
             still=True,
         ),
         "drives": Scene(
@@ -57,6 +59,7 @@ def two_drives(scene: str = "whole") -> Stage:
         "errors": Scene(
             "The goal lies {east} east and {north} north. Both errors of the grey robot shrink to "
             "nearly nothing. So what is missing?",
+            moved="From the start the goal lies {east} east and {north} north.",
             shows=("legs",),
         ),
         "near": Scene(CAME, look="near"),

@@ -8,6 +8,7 @@ import {
 const LONG = 4, LENGTH = 40, ROOM = 0.5; // m of an arm of the cone; samples of the drive; m
 const READING = 30 / DEGREES, RAY = 0.45; // rad; m ahead of a robot, by which it shows its heading
 const MOST = 190, FLAT = 0.8; // px, and the corner's height to that
+const FAR_OFF = 0.45; // rad, beyond which (14.1) says too little
 const MANY = ['rest', 'straight', 'turn'];
 
 // two fixes err across the way by sqrt(2) sigma, (14.1)
@@ -85,6 +86,8 @@ export default stage('course_from_gps', {
       scene } = values;
     const { mean, both } = believed(values), open = openness(sigma, far);
     return { sigma: `${inWords(sigma)} m`, far: `${inWords(far)} m`, off: inDegrees(open),
+      tell: open > FAR_OFF ? 'tell little of its heading'
+        : `tell its heading within about ${inDegrees(open)}`,
       fits, robots, lean: `${inWords(lean)}°`, dip: `${inWords(dip)}°`,
       guess: `${inWords(guess)}°`, reading: `${inWords(reading)}°`, mean: inDegrees(mean),
       both: inDegrees(scene === 'two' ? joined(guess / DEGREES, Math.SQRT2 * sigma / far) : both),

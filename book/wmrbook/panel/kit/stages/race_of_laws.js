@@ -103,11 +103,11 @@ export default stage('race_of_laws', {
   },
   look: ({ start, goal }) => [0, 1].map((i) => Math.min(start[i], goal[i]) - ROOM)
       .concat([0, 1].map((i) => Math.max(start[i], goal[i]) + ROOM)),
-  draw(pane, { law, speed }, { tracks }, { k }) {
+  above(pane, { law, speed }, { tracks }, { k, size }) { // no robot covers a name
     const labels = ['corrected', speed === 'own' ? law : 'given speed'];
     tracks.forEach(({ x, y, n, role }, i) => {
       const at = Math.min(k, n - 1);
-      if (at > 0) pane.text(labels[i], x[at], y[at], { role, dx: 20, dy: 24 });
+      if (at > 0) pane.text(labels[i], x[at], y[at], { role, dx: 20 * size, dy: 24 * size });
     });
   },
 });
