@@ -74,7 +74,7 @@ addEventListener('DOMContentLoaded', () => {
   // At once, before the browser goes to the place that an address names.
   dock();
   wide.addEventListener('change', dock);
-  addEventListener('afterprint', dock); // some printers' dialogs end without a change
+  addEventListener('afterprint', dock); // without a change of width
   addEventListener('scroll', () => requestAnimationFrame(follow), { passive: true });
   addEventListener('keydown', ({ key }) => {
     if (key === 'Escape' && root.classList.contains('docked')) hideList();
