@@ -32,7 +32,7 @@ from wmrbook.panel import Explorer, Front, MyRobot, kit, stills
 ROOT = Path(__file__).resolve().parents[2]
 VIEW = "application/vnd.jupyter.widget-view+json"
 STATE = "application/vnd.jupyter.widget-state+json"
-WIDTH, COLOURS = 700, 64
+WIDTH, COLOURS = 700, 32
 LARGEST = 40_000  # bytes of a picture
 LASTS = 30_000  # ms after which whatever moves by itself has ended
 HOST = "http://localhost/"
