@@ -14,12 +14,14 @@ window.fetch = (url) => {
   const text = `<div role="main"><p>${first}</p> ${page}</div>`;
   return Promise.resolve({ text: () => Promise.resolve(text) });
 };
-// Of two pages with a word the one that says it more often comes first.
+// Of two pages with a word the one that explains it comes first, and else the one that says it more
+// often.
 // Before Sphinx's own listener, which searches.
 document.addEventListener('DOMContentLoaded', () => Object.assign(globalThis.Scorer, {
   score([name, , , , score]) {
     const page = (PAGES[name] ?? '').toLowerCase();
     const times = (word) => Math.min(page.split(word).length - 1, 40);
-    return score + ASKED.reduce((sum, word) => sum + times(word), 0) / 4;
+    const explained = TERMS[name]?.includes(WORDS.join(' ')) ? 5 : 0;
+    return score + explained + ASKED.reduce((sum, word) => sum + times(word), 0) / 4;
   },
 }));

@@ -74,6 +74,7 @@ STILL = re.compile(r'<img alt="(?P<alt>[^"]*)" .*?src="data:image/webp;base64,(?
 # From a page's HTML to the words to be found, with the sections that results lead to.
 ARTICLE = re.compile(r'<article class="bd-article">(.*?)</article>', re.DOTALL)
 BLOCK_ENDS = re.compile(r"(?=</(?:p|li|dt|h\d|t[dh]|figcaption)>)")
+EXPLAINED = re.compile(r"<strong>([^<]*)</strong>")  # a term stands bold where it is explained
 UNSPOKEN = re.compile(  # code and printouts too: a search shows a sentence
     r'<(script|style|svg|summary|pre)\b.*?</\1>|<a class="headerlink".*?</a>'
     r'|<div class="[^"]*\bmath\b.*?</div>'
@@ -215,7 +216,7 @@ def mend(app, exception):
     """Mend the pages that are written, and keep their words for the search."""
     if exception or app.builder.name != "html":
         return
-    words = {}
+    words, terms = {}, {}
     for name in (*sorted(app.env.found_docs), "genindex", "search"):
         path = Path(app.outdir, f"{name}.html")
         text = path.read_text(encoding="utf-8")
@@ -234,9 +235,13 @@ def mend(app, exception):
         if name in app.env.found_docs:
             article = BLOCK_ENDS.sub("\n", re.sub(r"\s+", " ", ARTICLE.search(text)[1]))
             plain = FORMULA.sub(_in_letters, UNSPOKEN.sub("", article))
+            terms[name] = re.sub(r"\s+", " ", " | ".join(EXPLAINED.findall(article))).lower()
             words[name] = re.sub(r"\s*\n\s*", "\n", re.sub(r" +", " ", plain))
     _thin_icons(Path(app.outdir))
-    script = f"const PAGES = {json.dumps(words, ensure_ascii=False)};\n"
+    script = "".join(
+        f"const {name} = {json.dumps(table, ensure_ascii=False)};\n"
+        for name, table in {"PAGES": words, "TERMS": terms}.items()
+    )
     Path(app.outdir, "_static", "words.js").write_text(script, encoding="utf-8")
 
 

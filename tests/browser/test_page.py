@@ -100,15 +100,27 @@ def test_the_panel_lives_and_follows_the_colour_menu(opened):
         assert page.locator("html").get_attribute("data-theme") == theme
 
 
-def test_search_finds_the_page_that_says_it_most_and_shows_formulas_as_letters(opened):
+@pytest.mark.parametrize(
+    ("asked", "chapter"),
+    [
+        ("LaSalle", "04_lyapunov"),
+        ("Lyapunov function", "04_lyapunov"),
+        ("poles", "06_gains_by_design"),
+    ],
+)
+def test_search_puts_the_page_that_explains_a_term_first(opened, asked, chapter):
     page = opened("index.html")
     page.get_by_role("button", name="Search").click()
-    page.keyboard.type("LaSalle")
+    page.keyboard.type(asked)
     page.keyboard.press("Enter")
-    page.wait_for_url("**/search.html?q=LaSalle", timeout=PATIENCE)
+    page.wait_for_url("**/search.html?q=*", timeout=PATIENCE)
     hits = page.locator("#search-results li > a")
-    hits.nth(2).wait_for()
-    assert hits.first.get_attribute("href") == "notebooks/04_lyapunov.html"
+    hits.nth(1).wait_for()
+    assert hits.first.get_attribute("href") == f"notebooks/{chapter}.html"
+
+
+def test_search_shows_formulas_as_letters(opened):
+    page = opened("search.html?q=LaSalle")
     words = page.evaluate("PAGES['notebooks/04_lyapunov']")
     assert all(term in words for term in ("k_\u03c1", "V\u0307", "\u2202E/\u2202"))
     assert not re.search(r"\\|frac\d", words)
