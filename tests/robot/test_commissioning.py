@@ -2,6 +2,8 @@
 
 import math
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +12,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
+import wmrrobot as wr
 from wmrlib.body import roll
 from wmrrobot.commissioning import dead_band, latency, wheel_response
 
@@ -91,10 +94,33 @@ def test_a_steady_drive_does_not_tell_the_latency():
         latency(t, way[1:], t_fix, far, 0.1)
 
 
+PAGE = (Path(__file__).parents[2] / "book" / "commissioning.md").read_text(encoding="utf-8")
+ROWS = ((-5, 0, 0), (-5, 0, 30), (-5, 0, -30), (-5, 2, 0), (-5, -2, 0))  # chapter 11's
+ROWS += ((5, 0, 0), (-0.5, 0, 0), (0, 0, 0))
+
+
+def test_the_pages_bench_in_c_has_the_rows_of_chapter_11(tmp_path, find_tool):
+    robot = wr.Robot(max_speed=0.8)
+    (bench,) = re.findall(r"```c\n(.*?)```", PAGE, re.DOTALL)
+    (tmp_path / "bench.c").write_text(bench)
+    subprocess.run([sys.executable, "-m", "wmrrobot", "--c", tmp_path], check=True)
+    (tmp_path / "my_robot.h").write_text(wr.files(robot)["my_robot.h"])
+    command = [find_tool("compiler"), "-std=c99", "-Wall", "-Werror", "bench.c", "-o", "bench"]
+    subprocess.run([*command, "-lm"], cwd=tmp_path, check=True)
+    printed = subprocess.check_output([tmp_path / "bench"], text=True).split()
+    gains, wheels = wr.sheet(robot).gains, wmr.Wheels(robot.track_width, max_speed=0.8)
+    for number, (x, y, degrees) in enumerate(ROWS, 1):
+        pose = wmr.Pose(float(x), float(y), math.radians(degrees))
+        error = wmr.polar_error(pose, wmr.Pose(0.0, 0.0, 0.0))
+        v, omega = wmr.limit_wheels(*wmr.control_law(*error, gains), wheels)
+        expected = wmr.twist_to_wheels(v, omega, robot.track_width)
+        row = [float(word) for word in printed[3 * number - 3 : 3 * number]]
+        assert row == pytest.approx([number, *expected], abs=0.006)
+
+
 def test_the_pages_cells_run_and_its_drive_parks(capsys):
-    page = (Path(__file__).parents[2] / "book" / "commissioning.md").read_text(encoding="utf-8")
     names = {}
-    for cell in re.findall(r"```{code-cell} ipython3\n(.*?)```", page, re.DOTALL):
+    for cell in re.findall(r"```{code-cell} ipython3\n(.*?)```", PAGE, re.DOTALL):
         exec(cell, names)
     *states, last = capsys.readouterr().out.splitlines()[-5:]
     assert [line.split()[0] for line in states] == ["wait", "drive", "turn", "parked"]

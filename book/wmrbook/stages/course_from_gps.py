@@ -45,7 +45,7 @@ def course_from_gps(scene: str = "whole") -> Stage:
     counts = {"all of them": ROBOTS, "half of them": ROBOTS // 2, "only its own": 1}
     left = fitting(0.0, 0.0, TURN)
     ends = "Two fixes that err by {sigma}, {far} apart, {tell}."
-    fit = "{fits} of {robots} headings fit the fixes"
+    fit = "the fixes allow {fits} of {robots} headings"
     scenes = {
         "whole": Scene(
             "A receiver says where the robot is. Who says where it faces? " + ends,
@@ -88,8 +88,8 @@ def course_from_gps(scene: str = "whole") -> Stage:
             still=True,
         ),
         "straight": Scene(
-            "The eight drive {far} straight ahead. Now {fits} of {robots} headings fit a fix that "
-            "errs by {sigma}.",
+            "The eight drive {far} straight ahead. Now a fix that errs by {sigma} allows {fits} of "
+            "{robots} headings.",
             look="other",
             to={"sigma": RTK},
             handles=PLAIN,
@@ -101,10 +101,10 @@ def course_from_gps(scene: str = "whole") -> Stage:
             handles=("arm",),
             still=True,
             ask=Question(
-                "After half a turn only {fits} of {robots} headings fits the fixes. If the antenna "
-                "stood above the middle of the wheels, how many of them would fit?",
+                "After half a turn the fixes allow {fits} of {robots} headings. If the antenna "
+                "stood above the middle of the wheels, how many would they allow?",
                 dict.fromkeys(
-                    counts, "then the antenna stays where it is, and {fits} of {robots} fit."
+                    counts, "the antenna stays where it is, and the fixes allow {fits} of {robots}."
                 ),
                 min(counts, key=lambda answer: abs(counts[answer] - left)),
                 {"arm": 0.0},

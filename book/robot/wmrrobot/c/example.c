@@ -14,11 +14,11 @@
 #define MY_PERIOD WMR_C(0.05)
 #define MY_ANTENNA_AHEAD WMR_C(0.0)
 #define MY_ANTENNA_LEFT WMR_C(0.0)
-#define TRACK_WIDTH WMR_C(0.5)
+#define MY_TRACK_WIDTH WMR_C(0.5)
 static void my_plan(wmr_plan *plan) {
   const wmr_plan mine = {{0, 0, WMR_C(-1.0471975511965976)},
                          {WMR_C(0.2), WMR_C(2.0), WMR_C(2.0), WMR_C(4.0)},
-                         {TRACK_WIDTH, 2, WMR_C(0.1), (WMR_REAL)INFINITY, 0, 0, 0},
+                         {MY_TRACK_WIDTH, 2, WMR_C(0.1), (WMR_REAL)INFINITY, 0, 0, 0},
                          {WMR_C(0.02), 2, WMR_C(0.2), 1, 2, 0},
                          WMR_USUAL_RULES};
   *plan = mine;
@@ -72,7 +72,7 @@ static void read_encoders(int32_t *left, int32_t *right) { /* forwards counts up
 /* to the wheel loop */
 static void set_wheels(wmr_wheels wheels, WMR_REAL seconds) {
   const WMR_REAL left = wheels.left * seconds, right = wheels.right * seconds;
-  wmr_carry(&robot, (left + right) / WMR_C(2.0), (right - left) / TRACK_WIDTH);
+  wmr_carry(&robot, (left + right) / WMR_C(2.0), (right - left) / MY_TRACK_WIDTH);
   rolled[0] += left, rolled[1] += right;
 }
 #endif
