@@ -22,9 +22,10 @@ export default live('silence', {
     road.text('last fix', 0, 0.25, { role: 'start', dy: 22, align: 'center' });
     road.rect(0, -0.25, faith, 0.25, 'start', 0.5);
     road.rect(faith, -0.25, far, 0.25, 'rising', 0.5);
-    road.text('in good faith', 0, -0.25, { role: 'start', dy: -14 });
-    road.text('braking', faith, -0.25, { role: 'rising', dy: -32 });
     road.robot([far, 0, 0]);
+    // both below the way, where nothing else is
+    road.text('in good faith', 0, -0.25, { role: 'start', dy: -14, fixed: true });
+    road.text('braking', faith, -0.25, { role: 'rising', dy: -32, fixed: true });
     pane.rect(0, 0, timeout, speed, 'start', 0.5);
     pane.area([[timeout, 0], [timeout, speed], [stands, 0]], 'rising', 0.5);
     pane.line([[0, speed], [timeout, speed], [stands, 0]], 'path');
