@@ -61,28 +61,29 @@ def race_of_laws(scene: str = "whole") -> Stage:
         ),
         "aicardi": of_law(
             "aicardi",
-            "Aicardi's law wants to drive faster the farther away its goal is, and the wheels "
-            f"stop it at {WHEELS.max_speed} m/s.",
+            "Aicardi's law asks for more speed the farther away its goal is, but the wheels "
+            f"drive at no more than {WHEELS.max_speed} m/s.",
         ),
         "barrier": of_law(
             "barrier",
-            "No angle crosses half a turn under the barrier law. It drives {back} backwards.",
+            "No angle crosses half a turn under the barrier law. "
+            "Its robot drives {back} backwards.",
         ),
         "graceful": of_law(
-            "graceful", "Graceful drives {back} backwards, because its speed is never negative."
+            "graceful", "Graceful never drives backwards, because its speed is never negative."
         ),
         "near": Scene("The last metre. " + ends, look="near", handles=("law",)),
         "speed": Scene(
-            "The law (13.3) drives the same path at every speed that it is given. " + ends,
+            "The law (13.3) drives the same path at every given speed. " + ends,
             to={"drives": "backwards", "speed": "0.4"},
             moved=ends,
             handles=("speed",),
         ),
         "time": Scene(
-            f"With clocks that run ahead, and ideal wheels, both are there by {BY:.0f} s. " + ends,
+            f"With clocks that run ahead, and ideal wheels, both arrive before {BY:.0f} s. " + ends,
             to={"drives": "hurried"},
             moved=ends,
-            handles=("law",),
+            handles=("law", "drives"),
         ),
         "spot": Scene(
             "Both robots turn on the spot at the end, as fast as their wheels allow. " + ends,

@@ -103,8 +103,9 @@ export default stage('race_of_laws', {
   },
   look: ({ start, goal }) => [0, 1].map((i) => Math.min(start[i], goal[i]) - ROOM)
       .concat([0, 1].map((i) => Math.max(start[i], goal[i]) + ROOM)),
-  above(pane, { law, speed }, { tracks }, { k, size }) { // no robot covers a name
-    const labels = ['corrected', speed === 'own' ? law : 'given speed'];
+  above(pane, { law, speed }, { tracks }, { k, size }, { data: { names } }) {
+    const other = speed === 'own' ? names[law].replace('the ', '') : 'law (13.3)';
+    const labels = ['corrected law', other]; // no robot covers them
     tracks.forEach(({ x, y, n, role }, i) => {
       const at = Math.min(k, n - 1);
       if (at > 0) pane.text(labels[i], x[at], y[at], { role, dx: 20 * size, dy: 24 * size });
