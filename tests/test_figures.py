@@ -14,7 +14,7 @@ from wmrbook import figures
 from wmrbook.chapters import challenge, routes
 from wmrlib import paper
 
-GAINS, CIRCLE_GAINS, GENTLE = paper.OUTDOOR_GAINS, paper.CIRCLE_GAINS, wmr.GENTLE_GAINS
+GAINS, GENTLE = paper.OUTDOOR_GAINS, wmr.GENTLE_GAINS
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 CASE = paper.outdoor()
 ROBOT, GOAL = wmr.Pose(0.0, 0.0, math.radians(15)), wmr.Pose(4.0, 5.7, math.radians(-25))
@@ -28,11 +28,6 @@ ROBOT_RATES = wmr.polar_rate(1.0, wmr.polar_error(ROBOT, GOAL).alpha, 2.0, 0.0) 
 def drive(law="corrected", gains=GAINS, x_axis="east", **options):
     case = paper.outdoor(x_axis)
     return wmr.simulate(case.start, case.goal, gains, law=law, method="continuous", **options)
-
-
-@cache
-def chase():
-    return wmr.track(paper.circle, paper.CIRCLE_START, CIRCLE_GAINS, duration=40.0)
 
 
 def parked():
@@ -76,9 +71,6 @@ def time_steps():
 
 
 CASES = {
-    "dashboard": lambda: figures.dashboard(drive()),
-    "dashboard of a circle": lambda: figures.dashboard(chase()),
-    "dashboard of a single sample": lambda: figures.dashboard(parked()),
     "path": lambda: figures.path(drive()),
     "path of two": lambda: figures.path([drive(), parked()], ["one", "two"]),
     "twist": lambda: figures.twist(drive()),
@@ -149,9 +141,6 @@ def graceful():
 
 
 SAYS = {  # what the text must say, in numbers that come from elsewhere
-    "dashboard": lambda: [
-        "; v between 0.4 and 4.0 m/s; omega between -4.3 and 0.2 rad/s; V falls in every step"
-    ],
     "twist": lambda: [
         "Over time: v goes from 4.0 to 0.4 m/s, within 5 % of its peak, 4.0 m/s, from 0.0 to "
         f"{drive().t[drive().v > 0.95 * GAINS.v_max][-1]:.1f} s; omega goes from 0.2 to -4.1 "
@@ -399,7 +388,7 @@ def test_a_run_without_a_sample_is_named_and_so_is_a_picture_without_a_drive():
     lost = wmr.simulate(wmr.Pose(0, 0, 0), wmr.Pose(5, 1, 0), wmr.Gains(*[1e308] * 4))
     several, one = {"far": drive(), "lost": lost}, {"run": (lost,), "moments": (lost, [0.0, 1.0])}
     cases = [
-        *((name, one["run"], "run") for name in ("dashboard", "twist")),
+        ("twist", one["run"], "run"),
         ("path", ([drive(), lost],), "runs[1]"),
         ("angles_over_time", (lost,), "runs[0]"),
         ("snapshots", one["moments"], "run"),

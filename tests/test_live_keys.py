@@ -25,10 +25,6 @@ def _uphill(f):
     return lambda a, b, gains, **options: f(a, b, gains, **(options | {"law": "printed"}))
 
 
-def _backwards(gains):
-    return gains._replace(k_alpha=-gains.k_alpha)
-
-
 FLIPS = {  # the thing, and what its module takes from wmrlib
     "stopping simulate": _uphill,
     "bearing local_position": lambda f: lambda *to: (f(*to)[0], -f(*to)[1]),

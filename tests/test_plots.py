@@ -27,33 +27,8 @@ def driven() -> wmr.Trajectory:
 
 
 @cache
-def circled() -> wmr.Trajectory:
-    return wmr.track(
-        wmr.paper.circle,
-        wmr.paper.CIRCLE_START,
-        wmr.paper.CIRCLE_GAINS,
-        law="printed",
-        duration=40.0,
-    )
-
-
-@cache
 def parked() -> wmr.Trajectory:
     return wmr.simulate(PAPER.goal, PAPER.goal, PAPER.gains)
-
-
-def test_v_is_red_where_it_rises_and_only_there():
-    whole, rising = figures.dashboard(circled()).figure.axes[-1].lines
-    rises = np.flatnonzero(np.diff(circled().V) > 1e-9 * circled().V[0])
-    assert 0 < rises.size < len(circled()) - 1
-    np.testing.assert_array_equal(whole.get_xydata(), np.transpose([circled().t, circled().V]))
-    begin, end, gap = rising.get_xydata().reshape(-1, 3, 2).swapaxes(0, 1)
-    np.testing.assert_array_equal([begin, end], whole.get_xydata()[[rises, rises + 1]])
-    assert np.isnan(gap[:, 1]).all()
-    assert rising.get_linewidth() > 2 * whole.get_linewidth()  # a shape beside the colour
-    only = figures.dashboard(driven()).figure.axes[-1]
-    assert len(only.lines) == 1
-    assert only.get_legend() is None  # nothing to tell apart
 
 
 @pytest.mark.parametrize("size", [(2.0, 2.0), (4.0, 12.0), (20.0, 3.0)])
@@ -157,7 +132,7 @@ def test_a_thing_has_one_hue_on_both_papers_and_is_legible(role, theme):
     assert (high + 0.05) / (low + 0.05) > 4.5  # of text
 
 
-@pytest.mark.parametrize("role", [*SHARED, "ink", "V_rising", "y_error", "omega"])
+@pytest.mark.parametrize("role", [*SHARED, "ink", "y_error", "omega"])
 def test_on_dark_paper_a_thing_keeps_its_hue_and_is_legible(role):
     code = figures.COLOURS[role].lower()
     light, dark = (channels(colour) for colour in (code, style.DARK.get(code, code)))

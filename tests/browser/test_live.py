@@ -17,7 +17,6 @@ from wmrbook import live
 
 NAMES = sorted(set(live.__all__) - live.PARTS)
 PICTURE = "() => [...document.querySelectorAll('canvas')].map(it => it.toDataURL()).join()"
-TEXT = "() => document.querySelector('.live').innerText"
 UNSOUND = re.compile(r"NaN|undefined|Infinity|\[object")
 # What is read, and spoken, at each of these states: [text, [names of pictures]].
 SAID_AT = """async states => {

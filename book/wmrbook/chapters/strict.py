@@ -22,9 +22,9 @@ PATIENCE = 25.0  # s; the theorem takes about two
 _COMPARED = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
 
 
-def rates(law: str = "barrier") -> tuple[sp.Expr, sp.Expr]:
+def rates() -> tuple[sp.Expr, sp.Expr]:
     """Return p' and q' with h = 1, in a time that runs v_max decay(rho, k_rho) times as fast."""
-    _, alpha_rate, theta_rate = symbolic.closed_loop_rates(law)
+    _, alpha_rate, theta_rate = symbolic.closed_loop_rates("barrier")
     clock = symbolic.v_max * symbolic.decay(symbolic.rho, symbolic.k_rho)
     scaled = {symbolic.h: 1, symbolic.k_alpha: K2 * clock}
     half = {symbolic.theta: 2 * sp.atan(P), symbolic.alpha: 2 * sp.atan(Q)}
@@ -36,12 +36,12 @@ def rates(law: str = "barrier") -> tuple[sp.Expr, sp.Expr]:
     return of(P, theta_rate), of(Q, alpha_rate)
 
 
-def slope(function: sp.Expr = STRICT, law: str = "barrier") -> sp.Expr:
+def slope(function: sp.Expr = STRICT) -> sp.Expr:
     """Return V' (1 + q^2)^2, a polynomial with the sign of V', of a function of p and q.
 
-    Raises sympy's PolynomialError for a law or a function of which it is none.
+    Raises sympy's PolynomialError for a function of which it is none.
     """
-    falling = sum(function.diff(x) * rate for x, rate in zip((P, Q), rates(law), strict=True))
+    falling = sum(function.diff(x) * rate for x, rate in zip((P, Q), rates(), strict=True))
     return sp.Poly(sp.cancel(falling * (1 + Q**2) ** 2), P, Q, K2).as_expr()
 
 

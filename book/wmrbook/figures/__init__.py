@@ -8,7 +8,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "style": ["COLOURS", "LINES", "Picture"],
         "paths": ["path"],
         "facing": ["beliefs"],
-        "first_drive": ["dashboard", "twist"],
+        "first_drive": ["twist"],
         "earth": [
             "chord",
             "curvature_radii",

@@ -32,9 +32,7 @@ COLOURS = {role: light for role, (light, _) in face.COLOURS.items()} | {
     "robot": "#56b4e9",
     "v": face.COLOURS["path"][0],
     "omega": "#cc79a7",
-    "x_error": face.COLOURS["path"][0],
     "y_error": "#e69f00",
-    "V_rising": face.COLOURS["rising"][0],
 }
 STYLE: dict[Any, Any] = {
     "font.family": "Source Sans Pro",

@@ -55,15 +55,15 @@ def expression(name: str, value: Any, symbols: Iterable[sp.Symbol]) -> sp.Expr:
     return value.replace(sp.UnevaluatedExpr, lambda inner: inner).xreplace(names)
 
 
-def points(symbols: Iterable[sp.Symbol], count: int = 12) -> list[Point]:
-    """Random exact values: gains and rho between 0.1 and 3, the others between -3 and 3."""
+def points(symbols: Iterable[sp.Symbol]) -> list[Point]:
+    """Random exact values, 12 of each: gains and rho from 0.1 to 3, the others from -3 to 3."""
     random, chosen = np.random.default_rng(4), list(symbols)
     lowest = {
         symbol: 100 if symbol.is_positive or symbol.name == "rho" else -3000 for symbol in chosen
     }
     return [
         {symbol: sp.Rational(int(random.integers(lowest[symbol], 3000)), 1000) for symbol in chosen}
-        for _ in range(count)
+        for _ in range(12)
     ]
 
 

@@ -125,7 +125,7 @@ def home_omega(my_gains: Any) -> str:
     """It never turns too fast."""
     fastest = _home(my_gains).peak_omega
     hint = f"it turns with up to {fastest:.2f} rad/s. "
-    hint += "At the start, by k_alpha, or in the last bend? `wmrbook.figures.dashboard` shows it."
+    hint += "At the start, by k_alpha, or in the last bend? `wmrbook.figures.twist` shows it."
     expect(fastest < _HOME.omega, hint)
     return f"Never faster than {fastest:.2f} rad/s."
 
