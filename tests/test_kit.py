@@ -1,4 +1,4 @@
-"""The panels' kit is linted, its types are checked, and its lines are no longer than Python's."""
+"""The panels' kit is linted, and its types are checked."""
 
 from __future__ import annotations
 
@@ -24,14 +24,3 @@ def test_linter_and_compiler_find_nothing(command):
         [program, *arguments], cwd=BOOK, env=paths, capture_output=True, text=True
     )
     assert not done.returncode, done.stdout + done.stderr
-
-
-def test_no_line_is_longer_than_in_python():
-    kinds = {".js", ".mjs", ".css"}
-    ours = [*BOOK.rglob("*.*"), *Path(__file__).parent.rglob("*.*")]
-    skipped = {"node_modules", "_build", "vendor"}
-    for path in ours:
-        if path.suffix in kinds and not skipped & {*path.parts}:
-            lines = path.read_text(encoding="utf-8").splitlines()
-            wide = [number for number, line in enumerate(lines, 1) if len(line) > 100]
-            assert not wide, f"{path}: {wide}"
