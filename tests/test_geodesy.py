@@ -36,19 +36,6 @@ def test_distances_bearings_and_destination_as_published():
     assert (there.lat, there.lon) == pytest.approx((51.5136, -0.0983), abs=5e-5)
 
 
-def test_the_papers_pair_on_the_sphere_and_on_the_ellipsoid():
-    a, b = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
-    distance = wmr.haversine_distance(a, b)
-    assert distance == pytest.approx(58.0758, abs=5e-5)
-    assert bearing_deg(a, b) == pytest.approx(9.5831, abs=5e-5)
-    assert wmr.local_position(a, b) == pytest.approx((9.6684, 57.2654), abs=5e-5)
-    swapped = [wmr.GeoPoint(lat=p.lon, lon=p.lat) for p in (a, b)]
-    assert wmr.haversine_distance(*swapped) == pytest.approx(42.5355, abs=5e-5)
-    line = Geodesic.WGS84.Inverse(a.lat, a.lon, b.lat, b.lon)
-    assert (line["s12"], line["azi1"]) == pytest.approx((57.9343, 9.6274), abs=5e-5)
-    assert distance / line["s12"] - 1 == pytest.approx(0.00244, abs=5e-6)
-
-
 # The ellipsoid, a second truth
 
 

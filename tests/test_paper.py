@@ -10,11 +10,6 @@ import wmrlib as wmr
 from wmrbook.audit.published import PUBLISHED
 
 
-def run(x_axis, gains=None, **options):
-    case, setting = wmr.paper.outdoor(x_axis), {"method": "continuous"} | options
-    return wmr.arrival(wmr.simulate(case.start, case.goal, gains or case.gains, **setting))
-
-
 def test_outdoor_in_both_readings_of_the_axes():
     east, north = wmr.paper.outdoor("east"), wmr.paper.outdoor("north")
     assert east.goal[:2] == pytest.approx((9.6684, 57.2654), abs=1e-4)
@@ -23,32 +18,6 @@ def test_outdoor_in_both_readings_of_the_axes():
     assert math.degrees(east.goal.heading) == pytest.approx(-60.0)
     # Only x north has the paper's 57 m in x.
     assert north.goal.x == pytest.approx(PUBLISHED["x_error_at_start"].value, abs=0.5)
-
-
-def test_the_papers_gains_leave_a_heading_error_that_gentle_ones_do_not():
-    east, north, gentle = run("east"), run("north"), run("east", wmr.GENTLE_GAINS)
-    degrees = [math.degrees(end.heading_error) for end in (east, north, gentle)]
-    assert np.abs(degrees) == pytest.approx([27.2, 11.5, 2.1], abs=0.05)
-    assert (east.time, gentle.time) == pytest.approx((15.5, 23.1), abs=0.05)
-    assert (east.peak_omega, gentle.peak_omega) == pytest.approx((4.3, 0.64), abs=0.05)
-
-
-def test_circle_residuals():
-    start, gains = wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS
-
-    def residual(**options):
-        options = {"gains": gains, "duration": 40.0} | options
-        return wmr.residual(wmr.track(wmr.paper.circle, start, **options))
-
-    for law, expected in (("corrected", 0.090), ("printed", 0.193), ("aicardi", 0.332)):
-        assert residual(law=law) == pytest.approx(expected, abs=5e-4)
-    for v_max in (1.0, 2.0, 4.0):
-        measured = residual(gains=gains._replace(v_max=v_max))
-        predicted = -math.log(1 - wmr.paper.CIRCLE_SPEED / v_max) / gains.k_rho
-        assert measured == pytest.approx(predicted, rel=0.01)
-        # which v_max the paper must have used
-        is_the_papers = abs(measured - PUBLISHED["circle_residual"].value) < 0.011
-        assert is_the_papers == (v_max == 4.0)
 
 
 def test_circle_is_the_papers_and_its_twist_is_its_derivative():
