@@ -1,4 +1,4 @@
-"""The expressions against wmrlib's compiled formulas and the paper, and what is printed of them."""
+"""The expressions against wmrlib's compiled formulas, and what is printed of them."""
 
 from __future__ import annotations
 
@@ -16,8 +16,6 @@ from hypothesis import strategies as st
 from oracle import commanded
 
 import wmrlib as wmr
-from wmrbook import equations
-from wmrbook.equations import EQUATIONS
 from wmrlib import body, laws, motion, paper, symbolic
 from wmrlib.laws import LAWS, pose_value
 from wmrlib.symbolic import (
@@ -110,41 +108,6 @@ def test_decay_is_finite_and_smooth_at_the_goal():
     assert abs(decay(tiny, sp.Integer(2)).evalf(40) - 2 * (1 - tiny)) < 1e-38
 
 
-# The paper's equations, which stand in the book's package.
-
-
-def test_the_equations_against_the_model_and_each_other():
-    """What holds, and that (10), (23), (24) and (26) don't."""
-    assert list(EQUATIONS) == list(range(1, 27))
-    e = {number: EQUATIONS[number].rhs for number in EQUATIONS if number != 23}
-    rates = {EQUATIONS[n].lhs: e[n] for n in (7, 8, 9)}
-    ours, printed = (
-        dict(zip((symbolic.v, symbolic.omega), symbolic.law(name), strict=True))
-        for name in ("corrected", "printed")
-    )
-    loop = dict(zip((7, 9, 8), symbolic.closed_loop_rates(), strict=True))
-    speed = v_max * (1 - sp.exp(-k_rho * rho))
-    promised = -rho / L * speed * sp.cos(alpha) ** 2 - k_alpha * alpha**2
-    holds = {
-        **{f"({n}) is the model": (e[n].subs(ours), rate) for n, rate in loop.items()},
-        "(18)": (e[18], symbolic.lyapunov()),
-        "(19) gives (20)": (e[19].subs(rates), e[20]),
-        "(20) gives (21)": (e[20], e[21]),
-        "(21) with the corrected law": (e[21].subs(ours), symbolic.lyapunov_rate()),
-        "V' is what the proof promises": (symbolic.lyapunov_rate(), promised),
-        "(22)": (printed[symbolic.v], e[22]),
-        "(24) is the printed law": (printed[symbolic.omega], e[24]),
-        "(21) gives (25)": (e[21].subs(printed), e[25]),
-        "(25) is the printed law's": (symbolic.lyapunov_rate("printed"), e[25]),
-    }
-    assert [name for name, sides in holds.items() if not same(*sides)] == []
-    assert sp.Matrix([e[3], e[4], EQUATIONS[5].lhs]) == e[6]
-    assert list(e[10]) == [e[7], e[9], -e[8]]
-    assert not same(ours[symbolic.omega], e[24])
-    point = {rho: 0.5, alpha: 0.4, theta: -2.0, k_rho: 2, k_alpha: 1, h: 0.3, v_max: 4, L: 1}
-    assert abs((e[25] - e[26]).subs(point)) > 0.1
-
-
 def test_near_the_goal_the_poles_are_those_of_tuning():
     s, rate = sp.Symbol("s"), v_max * k_rho
     state = sp.Matrix([rho, alpha, theta])
@@ -161,24 +124,6 @@ def test_near_the_goal_the_poles_are_those_of_tuning():
         assert sp.expand(matrix.charpoly(s).as_expr() - polynomial) == 0
         near, a, b = symbolic.panel_formulas()[f"{name}_modes"].expanded()
         assert sp.expand((s + near) * (s**2 + a * s + b) - polynomial) == 0
-
-
-def test_geodesy_and_wheels_are_equations_11_to_17_and_1_to_2():
-    a, b = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
-    values = {symbolic.lat1: math.radians(a.lat), symbolic.lat2: math.radians(b.lat)}
-    values |= {symbolic.R: wmr.EARTH_RADIUS_M, symbolic.dlat: math.radians(b.lat - a.lat)}
-    values[symbolic.dlong] = math.radians(b.lon - a.lon)
-    for number in (13, 12, 16, 17, 15):
-        values[EQUATIONS[number].lhs] = float(EQUATIONS[number].rhs.subs(values))
-    distance, sight = (float(EQUATIONS[number].rhs.subs(values)) for number in (11, 14))
-    assert distance == pytest.approx(wmr.haversine_distance(a, b), rel=1e-9)
-    assert values[equations.br] == pytest.approx(wmr.initial_bearing(a, b), rel=1e-9)
-    assert sight == pytest.approx(math.atan2(*reversed(wmr.local_position(a, b))), abs=1e-5)
-    left, right, width, radius = 0.7, 1.2, 0.4, 0.1
-    wheels = {equations.V_l: left, equations.V_r: right, equations.r: radius, symbolic.b: width}
-    wheels |= {equations.left_wheel: left / radius, equations.right_wheel: right / radius}
-    twist = [float(EQUATIONS[number].rhs.subs(wheels)) for number in (1, 2)]
-    assert twist == pytest.approx(wmr.wheels_to_twist(left, right, width))
 
 
 # Printing
