@@ -153,16 +153,6 @@ def test_no_house_imports_a_private_module_of_another_and_no_test_uses_one():
             assert house in path.parts or (path.name, name) in tested, (path, name)
 
 
-def test_the_librarys_ten_lines_do_what_their_comments_say(capsys):
-    text = (BOOK / "api.md").read_text(encoding="utf-8")
-    lines = re.search(r"```python\n(.*?)```", text, re.DOTALL)[1]
-    place, arrival = re.findall(r"# (.*)", lines)
-    names = {}
-    exec(lines, names)
-    assert capsys.readouterr().out.strip() == arrival
-    assert f"{names['east']:.2f} m, {names['north']:.2f} m" == place
-
-
 def test_without_sympy_the_expressions_say_what_to_install():
     code = "import sys; sys.modules['sympy'] = None; import wmrlib.symbolic"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)

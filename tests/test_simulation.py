@@ -115,17 +115,6 @@ def test_columns_agree_with_the_public_functions(method):
         assert run.heading_error == pytest.approx(error, abs=1e-9)
 
 
-@pytest.mark.parametrize("method", ["euler", "arc"])
-def test_samples_follow_from_each_other(method):
-    """The loop of the kernel, written once more with the public functions."""
-    run, pose = wmr.simulate(PAPER.start, PAPER.goal, PAPER.gains, method=method), PAPER.start
-    for k in range(len(run)):
-        assert (run.x[k], run.y[k]) == pytest.approx((pose.x, pose.y), abs=1e-8)
-        assert wmr.wrap_angle(run.heading[k] - pose.heading) == pytest.approx(0.0, abs=1e-8)
-        v, omega = wmr.control_law(*wmr.polar_error(pose, PAPER.goal), PAPER.gains)
-        pose = wmr.advance(pose, v, omega, 0.1, method)
-
-
 # Outcomes and edges ------------------------------------------------------------------------------
 
 

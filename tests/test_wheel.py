@@ -1,4 +1,4 @@
-"""The wheel: what it carries, and that the ten lines of the library's page run from it alone."""
+"""The wheel: what it carries, and that the library's first example runs from it alone."""
 
 import os
 import re
@@ -37,7 +37,7 @@ def test_it_has_the_packages_and_nothing_else(wheel):
     assert {"wmrlib/py.typed", "wmrrobot/c/wmr_drive.h", "wmrrobot/templates/my_robot.h"} <= files
 
 
-def test_the_librarys_ten_lines_run_from_it(wheel, tmp_path):
+def test_the_librarys_first_example_runs_from_it(wheel, tmp_path):
     wheel.extractall(tmp_path / "site")
     text = (ROOT / "book" / "api.md").read_text(encoding="utf-8")
     lines = re.search(r"```python\n(.*?)```", text, re.DOTALL)[1]
