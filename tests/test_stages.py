@@ -31,7 +31,7 @@ def test_a_stage_opens_with_any_of_its_scenes_and_with_no_other(name):
         make("nowhere")
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", ["first_drive", "late_looks"])  # with sliders, and a menu
 def test_a_handle_goes_where_it_may_and_refuses_the_rest_by_name(name):
     stage = getattr(stages, name)()
     for knob in stage.setup["knobs"]:
