@@ -64,15 +64,6 @@ def browser_page(browser):
     page.assert_quiet()
 
 
-@pytest.fixture
-def another_page(browser):
-    """The function that makes a further page, of a context of its own."""
-    made = []
-    yield lambda: made.append(watched(browser)) or made[-1]
-    for page in made:
-        page.context.close()
-
-
 @pytest.fixture(scope="module")
 def module_page(browser):
     page = watched(browser)
