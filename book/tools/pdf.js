@@ -30,7 +30,7 @@ window.paper = (() => {
     for (const it of all('.cell.tag_hide-cell'))
       if (it.textContent.includes('# Check')) it.remove(); // for whoever has changed a number
     for (const it of all('.cell_output'))
-      if (/^\s*Hint: /.test(it.textContent)) it.remove(); // on an answer that is still to be written
+      if (/^\s*Hint: /.test(it.textContent)) it.remove(); // an answer is still to be written
     for (const it of all('.cell'))
       if (![...it.children].some((part) => part.checkVisibility())) it.remove();
     all('img').forEach((it) => { it.loading = 'eager'; });
