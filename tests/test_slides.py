@@ -78,7 +78,7 @@ def test_a_panel_begins_as_its_slide_says_and_leaves_the_chapters_own_alone():
 @pytest.mark.parametrize("number", NUMBERS)
 def test_a_lecturers_notes_have_the_exercises_with_their_solutions(number):
     solved = slides.solved(number)
-    assert solved.count("### Exercise") == solved.count("**Solution.**") == 5
+    assert solved.count("### Exercise") == solved.count("**Solution.**") >= 5
     assert "<details>" not in solved
     assert "**Solution.**" not in source(number)
 
