@@ -47,7 +47,7 @@ def race_of_laws(scene: str = "whole") -> Stage:
         return Scene(f"{claim} {ends}", to={"law": law}, moved=ends, handles=("law",))
 
     scenes = {
-        "whole": Scene("Is another law better? " + ends, handles=("law",)),
+        "whole": Scene("Is another law better? " + ends, handles=("law", "drives")),
         "ask": Scene(
             ends,
             still=True,
