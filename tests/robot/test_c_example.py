@@ -76,7 +76,7 @@ static void read_encoders(int32_t *left, int32_t *right) {{
 }}
 static void set_wheels(wmr_wheels wheels, WMR_REAL seconds) {{
   const WMR_REAL left = wheels.left * seconds, right = wheels.right * seconds;
-  wmr_carry(&robot, (left + right) / 2, (right - left) / TRACK_WIDTH);
+  wmr_carry(&robot, (left + right) / 2, (right - left) / MY_TRACK_WIDTH);
   rolled[0] += left, rolled[1] += right;
   late = turn < 20 ? PERIOD_MS : PERIOD_MS + 1; /* how long the turn takes */
   if (wheels.left + wheels.right > 0) printf("drives %d\\n", (int)turn);
