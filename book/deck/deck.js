@@ -65,6 +65,11 @@
     }
   }, true);
 
+  // After a click on an answer or a handle the arrows are the deck's again; a slider keeps them.
+  addEventListener('pointerup', () => setTimeout(() => {
+    if (inWidget() && document.activeElement.matches('button')) document.activeElement.blur();
+  }));
+
   /** Draws the panels of a page. */
   async function show(page) {
     if (shown.has(page)) return;

@@ -10,7 +10,7 @@ concept question (`question/four-moves`). A panel may begin elsewhere,
 `figure: CELL theta=90 law=printed`, and without its prediction: `figure: CELL open`.
 A stage begins with one of its scenes, `figure: CELL scene=near h=0 start=0,-4,90`: the knobs and
 poses (metres and degrees) stand so in this scene. The items of a list of `+` or `1)` appear one
-by one.
+by one, and words below a question appear after it.
 What follows `note:` is for the speaker. OUTPUT/index.html lists the decks; all open from the disk,
 with no network.
 """
@@ -37,7 +37,7 @@ from markdown_it.rules_core import StateCore
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 from nbformat import NotebookNode
 
-from wmrbook.figures.style import SVG_URL, darkened
+from wmrbook.figures.style import NARROWEST, SVG_URL, darkened
 
 REVEAL_FILES = (
     "reveal.js/dist/re*.css",
@@ -51,6 +51,7 @@ FOLDED = re.compile(
 )
 SLIDE = re.compile(r"# (?P<title>.*)\n+(?:figure: (?P<figure>.*)\n+)?(?P<words>[\s\S]*?)"
                    r"(?:^note: (?P<notes>[\s\S]*))?\Z", re.MULTILINE)  # fmt: skip
+FRACTION = re.compile(r"\\frac(?!\d\d)")  # not a half
 KIND = "application/vnd.jupyter.widget"
 SAFE = r"\u003c"  # in a script an HTML tag could end it
 VIEW, STATE = f"{KIND}-view+json", f"{KIND}-state+json"
@@ -156,6 +157,7 @@ def pictured(data: dict, stored: dict, settings: Iterable[str]) -> str:
             for kind, it in ((VIEW, {"model_id": "it"}), (STATE, {"state": {"it": model}}))
         )
         named = f'data-program="{model["state"]["program"]}"'
+        named += " data-asks" * asks(model["state"]["state"], model["state"]["setup"])
         return f'<div class="panel" data-prevent-swipe {named}>{"".join(scripts)}</div>'
     image = data["text/html"]
     source = re.search(r'src="(.*?)"', image)[1]
@@ -197,6 +199,12 @@ def place(state: dict, setup: dict, settings: Iterable[str]) -> None:
             scene["ask"], scene["still"] = None, False
 
 
+def asks(state: dict, setup: dict) -> bool:
+    """Whether a panel begins with a question."""
+    scenes = {scene["name"]: scene for scene in setup.get("scenes", ())}
+    return bool(scenes[state["scene"]].get("ask") if scenes else setup.get("ask"))
+
+
 def solved(number: str) -> str:
     """Return a chapter's exercises with their solutions."""
     text = "\n\n".join(it.source for it in chapter(number).cells if it.cell_type == "markdown")
@@ -226,13 +234,15 @@ def stepwise(state: StateCore) -> None:
 
 
 def formula(text: str, options: dict) -> str:
-    """Return a formula as MathJax finds it."""
+    """Return a formula as MathJax finds it, with fractions of letters in full size."""
+    text = FRACTION.sub(r"\\dfrac", text)
     return html.escape(f"$${text}$$" if options["display_mode"] else f"${text}$")
 
 
 def wide(slide: Slide) -> bool:
-    """Whether a slide's picture takes the width, with one line of words below it."""
-    return "panel" in slide.picture or not re.search(r"\$\$|^(?:[-+>|<]|1[.)] )", slide.words, re.M)
+    """Whether a slide's picture takes the width, with words below it: it is made for a page's."""
+    width = re.search(r'width="(\d+)"', slide.picture)
+    return "panel" in slide.picture or (bool(width) and int(width[1]) >= 96 * NARROWEST)
 
 
 def lay_out(output: Path) -> None:

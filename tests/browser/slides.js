@@ -1,10 +1,9 @@
 // What is wrong with a deck, of which all slides are laid out: [slide, kind, what] for each
 // trouble. Sizes count against the height of a picture of 16 to 9, as wide as the window: in a
-// squarer one what limits them is its width. Letters are 24 of 720 high, or 20 in a stored figure
-// and in the Explorer, which is a tool.
+// squarer one what limits them is its width. Letters are 24 of 720 high, in words, in stored
+// figures and on canvases, on which the test has noted them; only indices may be smaller.
 () => {
-  const found = [], tallest = Math.min(innerHeight, innerWidth * 9 / 16), least = tallest / 30,
-      drawnLeast = tallest / 36;
+  const found = [], tallest = Math.min(innerHeight, innerWidth * 9 / 16), least = tallest / 30;
   const sight = (it) => it.closest('aside, mjx-assistive-mml, .wmr-aside') === null
       && it.checkVisibility();
   const size = (it) => parseFloat(getComputedStyle(it).fontSize);
@@ -24,15 +23,19 @@
       const drawn = decodeURIComponent(picture.src || '').matchAll(/scale\(([\d.]+) -/g),
           points = Math.min(...[...drawn].map((it) => 100 * Number(it[1]))),
           letters = points * tall / naturalHeight / 0.75;
-      if (letters < drawnLeast - 0.05) tell('small letters', `${letters.toFixed(1)} px`);
+      if (letters < least - 0.05) tell('small letters', `${letters.toFixed(1)} px`);
     }
+
+    for (const canvas of all('canvas'))
+      for (const [text, high] of canvas.letters || [])
+        if (high < least - 0.05) tell('small letters', `${high.toFixed(1)} px: ${text}`);
 
     const texts = document.createTreeWalker(page, NodeFilter.SHOW_TEXT), small = new Set();
     while (texts.nextNode()) {
       const it = texts.currentNode.parentElement;
       if (!texts.currentNode.data.trim() || !sight(it) || it.closest('mjx-container, script, sub'))
         continue;
-      if (size(it) < (it.closest('.wmr-stage') ? drawnLeast : least) - 0.01)
+      if (size(it) < least - 0.01)
         small.add(`${it.tagName} ${size(it).toFixed(1)}`);
     }
     for (const it of all('mjx-container'))

@@ -25,6 +25,20 @@ SOME = "00", "04", "14"  # looked at whenever the tests run; the others are slow
 DECK, CHAPTER = NAMES[0], "00"  # with a panel
 SIZES = [(1280, 720)] + [(1920, 1080), (1366, 768), (1024, 768)] * bool(READY)
 TROUBLES = (Path(__file__).parent / "slides.js").read_text(encoding="utf-8")
+# Notes on each canvas how high the letters are that it shows, in pixels of the page.
+LETTERS = """for (const name of ['fillText', 'strokeText', 'fillRect']) {
+    const draw = CanvasRenderingContext2D.prototype[name];
+    CanvasRenderingContext2D.prototype[name] = function (what, ...rest) {
+        const { canvas, font } = this, matrix = this.getTransform();
+        if (name === 'fillRect') { // over all of it: what it showed is gone
+            if (rest[1] * matrix.a > canvas.width - 2) canvas.letters = new Map();
+        } else if (what.trim()) {
+            const high = Number(/([\\d.]+)px/.exec(font)[1]) * Math.hypot(matrix.c, matrix.d);
+            (canvas.letters ??= new Map()).set(what, high * canvas.clientHeight / canvas.height);
+        }
+        return draw.call(this, what, ...rest);
+    };
+}"""
 ALL_OPEN = """() => ![...document.querySelectorAll('.live')].some(
     it => it.dataset.open !== 'true' || it.dataset.moving)"""
 STAGE = '[data-program="stages/first_drive"]'
@@ -46,6 +60,7 @@ def decks(made_once) -> Path:
 def opened(decks, browser_page):
     """Opens a deck and waits until it is drawn; a request that leaves its folder is a trouble."""
     confine(browser_page, decks)
+    browser_page.add_init_script(LETTERS)
 
     def open_of_size(name: str, size=SIZES[0]):
         browser_page.set_viewport_size({"width": size[0], "height": size[1]})
@@ -146,6 +161,16 @@ def test_a_slider_moves_by_keyboard_and_the_slide_stays(opened):
     page.keyboard.press("Escape")
     page.keyboard.press("ArrowRight")
     page.wait_for_function("before => deck.getIndices().h !== before.h", arg=where)
+
+
+def test_after_a_click_in_a_panel_the_arrow_leads_on(opened):
+    page = opened(DECK)
+    page.evaluate(SHOW, "[data-asks]")
+    page.locator("section.present .stage[data-done=true]").wait_for(timeout=PATIENCE)
+    page.locator("section.present .stage-chip:visible").first.click()
+    where = page.evaluate("deck.getIndices().h")
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function("h => deck.getIndices().h > h", arg=where, timeout=PATIENCE)
 
 
 def test_the_speakers_view_shows_the_notes_from_the_disk_and_each_formula_once(decks, opened):

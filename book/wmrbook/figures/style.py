@@ -67,9 +67,9 @@ DARK = dict(face.COLOURS.values()) | {
 for _path in files("font_source_sans_pro").joinpath("files").iterdir():
     if re.fullmatch(r"SourceSansPro-(Regular|It|Semibold|Bold)\.ttf", _path.name):
         font_manager.fontManager.addfont(str(_path))
-TALLEST = 4.8  # inches: on a slide of 720 px the letters of a figure then have 20 px at least
-# inches: a page shows a figure as wide as its column, 690 px, with letters of 12 to 18 px
-NARROWEST, WIDEST = 7.0, 10.2
+# inches: a page shows a figure as wide as its column, 690 px, with letters of 12 to 18 px; and on a
+# slide of 1280 by 720 px the letters of the tallest and of the widest figure have 24 px
+NARROWEST, WIDEST, TALLEST = 7.0, 9.3, 4.0
 LINES = ("-", "--", ":", "-.")
 CROWD = 300  # shapes in one graph; more are stored as pixels, which take less room
 SVG_URL = "data:image/svg+xml,"

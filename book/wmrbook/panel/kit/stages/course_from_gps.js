@@ -69,9 +69,9 @@ function drawPlan(pane, { sigma, far, guess_deg: guess }) {
         { width: 2.5 });
   });
   pane.text('aside', ...inset.at([wide, 0]),
-      { role: 'soft', size: 12, dx: -4, dy: -9, align: 'right', fixed: true });
+      { role: 'soft', dx: -4, dy: -9, align: 'right', fixed: true });
   pane.text('heading', ...inset.at([0, high]),
-      { role: 'soft', size: 12, dx: 5, dy: -10, fixed: true });
+      { role: 'soft', dx: 5, dy: -10, fixed: true });
 }
 
 export default stage('course_from_gps', {

@@ -72,7 +72,7 @@ export default stage('downhill', {
           { role: 'alpha', size: 13, fixed: true });
     }
     pane.text('time', ...inset.at([last, 0]),
-        { role: 'soft', size: 12, dx: -4, dy: 9, align: 'right', fixed: true });
+        { role: 'soft', dx: -4, dy: 9, align: 'right', fixed: true });
     pane.text('V', ...inset.at([0.4 * last, 0.9 * most]),
         { role: 'V', size: 17, weight: 600, fixed: true });
   },

@@ -89,7 +89,7 @@ export default stage('moving_goal', {
       pane.text(text, ...inset.at(place), { role, size: 13, fixed: true, ...looks });
     note('the goal', [FAR, speed], 'goal', { dx: -4, dy: -10, align: 'right' });
     note('the law', [FAR, 1.1], 'path', { align: 'right', dx: -4 });
-    note('distance', [FAR, 0], 'soft', { size: 12, dx: -4, dy: 8, align: 'right' });
-    note('speed', [0, FAST], 'soft', { size: 12, dx: 5, dy: -10 });
+    note('distance', [FAR, 0], 'soft', { dx: -4, dy: 8, align: 'right' });
+    note('speed', [0, FAST], 'soft', { dx: 5, dy: -10 });
   },
 });

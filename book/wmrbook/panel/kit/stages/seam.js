@@ -170,7 +170,7 @@ export default stage('seam', {
       curve(run, role, 3);
     });
     pane.text('time', ...inset.at([end, low]),
-        { role: 'soft', size: 12, dx: -4, dy: 9, align: 'right', fixed: true });
+        { role: 'soft', dx: -4, dy: 9, align: 'right', fixed: true });
     pane.text(name, ...inset.at([0.6 * end, low + 0.85 * (high - low)]),
         { role, size: 15, weight: 600, fixed: true });
   },
