@@ -37,7 +37,8 @@ def test_figures_have_captions_in_order(path):
     cells, wanted, captions = nbformat.read(path, as_version=4).cells, [], []
     for place, cell in enumerate(cells):
         texts = [it.get("data", {}).get("text/html", "") for it in cell.get("outputs", ())]
-        if any(text.startswith("<img") for text in texts):
+        solution = "hide-cell" in cell.metadata.get("tags", ())
+        if any(text.startswith("<img") for text in texts) and not solution:
             wanted.append((place + 1, f"**Figure {int(path.stem[:2])}.{len(wanted) + 1}.** "))
         if caption := re.match(r"\*\*Figure .*?\*\* ", cell.source):
             captions.append((place, caption[0]))
