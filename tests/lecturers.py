@@ -13,15 +13,20 @@ SOLUTION = re.compile("<summary>Solution.*?</details>", re.DOTALL)
 def closed() -> list[str]:
     """Plain words of each solution of an exercise, and of each paragraph of the lecturer's guide.
 
-    They are the lecturer's alone.
+    They are the lecturer's alone; words that a chapter says too are not.
     """
     chapters = (path.read_text(encoding="utf-8") for path in (ROOT / "notebooks").glob("*.ipynb"))
-    cells = ("".join(cell["source"]) for text in chapters for cell in json.loads(text)["cells"])
+    cells = ["".join(cell["source"]) for text in chapters for cell in json.loads(text)["cells"]]
+    open_letters = letters("".join(SOLUTION.sub("", cell) for cell in cells))
     texts = [solution for cell in cells for solution in SOLUTION.findall(cell)]
     guide = (ROOT / "book/lecturers.md").read_text(encoding="utf-8")
     texts += re.sub("^```.*?^```", "", guide, flags=re.MULTILINE | re.DOTALL).split("\n\n")[1:]
     runs = (run.strip() for solution in texts for run in re.findall("[A-Za-z, ]{31,}", solution))
-    return sorted({run for run in runs if len(run) > 30})
+    return sorted({run for run in runs if len(run) > 30 and letters(run) not in open_letters})
+
+
+def letters(text: str) -> str:
+    return re.sub("[^a-z]", "", text.lower())
 
 
 def leaks(folder: Path) -> list[str]:
