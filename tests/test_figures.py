@@ -70,6 +70,14 @@ def time_steps():
     return figures.time_steps(CASE.start, CASE.goal, gains, STEPS)
 
 
+def step(method):
+    shares = np.linspace(0.0, 1.0, 5).tolist()
+    return [wmr.advance(ORIGIN, 0.6, 0.45, share, method=method) for share in shares]
+
+
+ASIDE = wmr.Pose(0.9, 0.5, 0.0)
+
+
 CASES = {
     "path": lambda: figures.path(drive()),
     "path of two": lambda: figures.path([drive(), parked()], ["one", "two"]),
@@ -103,6 +111,9 @@ CASES = {
     "snapshots, wide": lambda: figures.snapshots(drive(x_axis="north"), [0.0, 5.0, 14.0]),
     "block_diagram": lambda: figures.block_diagram(0.2, 4.0),
     "root_locus": lambda: figures.root_locus(GAINS, "k_alpha", np.linspace(0.1, 20.0, 100)),
+    "three_steps": lambda: figures.three_steps(
+        {"euler": step("euler"), "again": step("euler"), "arc": step("arc")}, ASIDE
+    ),
     "time_steps": time_steps,
     "inner_loops": lambda: figures.inner_loops({"one": wheel_loops(), "two": {"slow": drive()}}),
     "memories": lambda: figures.memories(MEMORY, FOUND),
@@ -126,6 +137,12 @@ picture = cache(lambda name: CASES[name]())
 
 def degrees_left(run):
     return f"{math.degrees(wmr.arrival(run).heading_error):.0f} deg"
+
+
+def sight_turns(method):
+    end = step(method)[-1]
+    after, before = math.atan2(0.5 - end.y, 0.9 - end.x), math.atan2(0.5, 0.9)
+    return round(math.degrees(after - before))
 
 
 def beside(driven):
@@ -169,6 +186,10 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     ],
     "inner_loops": lambda: [
         f"one, slow: {degrees_left(wheel_loops()['slow'])}; one, at once: {degrees_left(drive())}"
+    ],
+    "three_steps": lambda: [
+        f"turns: euler {sight_turns('euler')} deg, again {sight_turns('euler')} deg, "
+        f"arc {sight_turns('arc')} deg."
     ],
     "memories": lambda: [
         "from white to constant: 10 Hz, from 0.2 m and about 80 deg to 1.4 m and 10 deg, "
@@ -301,6 +322,16 @@ def test_time_steps_draw_each_run_and_each_limit():
         assert any(set(line.get_xdata()) == limit for line in axes.lines)
 
 
+def test_a_step_is_drawn_with_its_chord_and_its_angle_chi():
+    axes = axes_of("three_steps")[1]  # the arc's, the larger panel
+    path, chord, *_, angle = axes.lines
+    end = step("arc")[-1]
+    np.testing.assert_allclose(path.get_xydata()[-1], [end.x, end.y])
+    np.testing.assert_allclose(chord.get_xydata(), [[0.0, 0.0], [end.x, end.y]])
+    x, y = angle.get_xydata()[-1]
+    assert math.atan2(y, x) == pytest.approx(0.45 / 2)  # half of the turn
+
+
 def test_a_route_is_drawn_as_it_was_driven():
     """Arrows for the wanted headings, and a marker each for a stop, a pass and what was missed."""
     way, mixed = route("mixed").waypoints, route("mixed")
@@ -352,6 +383,7 @@ BAD = [
     (r"time_step = 0\.0 is not allowed", "block_diagram", (0.0, 10.0)),
     ("gains has 1 .* 2 are needed", "time_steps", (ROBOT, GOAL, {"one": GAINS}, STEPS)),
     ("cases has 0 entries", "inner_loops", ({},)),
+    ("paths has 1 .* 3 are needed", "three_steps", ({"one": [ORIGIN]}, ASIDE)),
     ("series has 0 entries, .* 1 to 4 are needed", "memories", (MEMORY, {})),
     ("mismatched lengths", "memories", (MEMORY, {"one": (np.ones(3), np.ones(2))})),
     ("counts has 0 entries", "verdicts", ({},)),

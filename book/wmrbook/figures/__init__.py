@@ -25,7 +25,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "snapshots",
         ],
         "design": ["root_locus"],
-        "sampling": ["inner_loops", "time_steps"],
+        "sampling": ["inner_loops", "three_steps", "time_steps"],
         "noise": ["memories"],
         "audit": ["verdicts"],
         "routes": ["challenge_paths", "route"],

@@ -9,9 +9,9 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from wmrbook.figures._drawing import check_count
-from wmrbook.figures.style import COLOURS, Picture, new_figure
+from wmrbook.figures.style import COLOURS, Picture, new_figure, robot
 from wmrlib.gains import Gains
-from wmrlib.kinematics import Pose
+from wmrlib.kinematics import Pose, polar_error
 from wmrlib.metrics import arrival
 from wmrlib.runs import Trajectory, with_samples
 from wmrlib.simulation import simulate
@@ -64,6 +64,34 @@ def time_steps(
     return Picture(figure, f"{what}: {'; '.join(texts)}.")
 
 
+def three_steps(paths: Mapping[str, Sequence[Pose]], goal: Pose) -> Picture:
+    """One step in three ways from the same start, the last one in a larger panel.
+
+    paths: from a way's name to its poses, from the first to the last. Dashed: the line of sight
+    before and after the step. Dotted: the chord. The angle chi is drawn in the larger panel.
+    """
+    check_count("paths", paths, 3, 3)
+    top, below, large = paths
+    figure, panels = new_figure(8.4, 4.4, mosaic=[[top, large], [below, large]])
+    turned = {}
+    for name, path in paths.items():
+        axes, start, end = panels[name], path[0], path[-1]
+        turned[name] = _turned_sight(start, end, goal)
+        axes.plot(*np.transpose(path)[:2], color=COLOURS["path"])
+        axes.plot([start.x, end.x], [start.y, end.y], ":", color=COLOURS["ink"])
+        ahead = start.x + 0.75 * math.cos(start.heading), start.y + 0.75 * math.sin(start.heading)
+        axes.plot([start.x, ahead[0]], [start.y, ahead[1]], color=COLOURS["soft"], lw=1)
+        axes.plot([end.x, goal.x, start.x], [end.y, goal.y, start.y], "--", color=COLOURS["rho"])
+        axes.plot(goal.x, goal.y, "o", color=COLOURS["goal"], ms=9)
+        robot(axes, end)
+        axes.set(title=f"{name}: sight turns {turned[name]}°", aspect="equal")
+        axes.set(xlim=(-0.15, 1.05), ylim=(-0.15, 0.65))
+        axes.tick_params(length=0, labelbottom=False, labelleft=False)
+    _draw_chord_angle(panels[large], paths[large][0], paths[large][-1])
+    words = ", ".join(f"{name} {angle} deg" for name, angle in turned.items())
+    return Picture(figure, f"One step in three ways, and how far the line of sight turns: {words}.")
+
+
 def inner_loops(cases: Mapping[str, Mapping[str, Trajectory]]) -> Picture:
     """The heading error against the distance left to the goal, one panel for each of two cases.
 
@@ -88,6 +116,21 @@ def inner_loops(cases: Mapping[str, Mapping[str, Trajectory]]) -> Picture:
     rows[-1].xaxis.set_major_formatter("{x:g}")
     what = "Heading error against the distance left to the goal; where it ends"
     return Picture(figure, f"{what}: {'; '.join(texts)}.")
+
+
+def _turned_sight(start: Pose, end: Pose, goal: Pose) -> int:
+    """How far the line of sight to the goal turns from start to end, in whole degrees."""
+    before, after = (polar_error(pose, goal).theta for pose in (start, end))
+    return round(math.degrees(math.remainder(after - before, math.tau)))
+
+
+def _draw_chord_angle(axes: Axes, start: Pose, end: Pose) -> None:
+    """The angle chi from the heading at the start to the chord."""
+    chi = math.remainder(math.atan2(end.y - start.y, end.x - start.x) - start.heading, math.tau)
+    angles = start.heading + np.linspace(0.0, chi, 20)
+    x, y = start.x + 0.4 * np.cos(angles), start.y + 0.4 * np.sin(angles)
+    axes.plot(x, y, color=COLOURS["ink"], lw=1.5)
+    axes.text(x[0] + 0.02, y[0] + 0.02, r"$\chi$", fontsize=15)
 
 
 def _heading_left(run) -> float:
