@@ -135,7 +135,7 @@ def test_a_search_shows_the_sentence_with_all_words_and_no_code(opened, asked, p
     hit = shown.locator("#search-results li").filter(has=link).first
     words = hit.locator(".context").inner_text(timeout=PATIENCE)
     assert asked in words.lower(), words
-    code = shown.evaluate("Object.values(PAGES).filter(it => it.includes('from wmrbook import'))")
+    code = shown.evaluate("Object.values(PAGES).filter(it => it.includes('np.array('))")
     assert not code, code[0][:200]
 
 
